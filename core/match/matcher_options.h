@@ -1,0 +1,68 @@
+// What can be asked of the block matcher, and what cannot.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/disparity.h"
+
+namespace stereod {
+
+/// Four stages of the same matcher (thesis, sections 3.3, 3.7 and 3.8; the fourth, threads over bands, applies
+/// to each). All give the same result to the bit.
+enum class Implementation { kNaive, kSliding, kSimd };
+
+/// Instruction sets that the simd implementation is compiled for. kAuto takes the best one the CPU has.
+enum class Isa { kAuto, kScalar, kSsse3, kSse41, kAvx2, kNeon };
+
+/// What the pictures go through before they are compared.
+enum class Prefilter {
+  kNone,    ///< raw grey values, the thesis' cost
+  kXsobel,  ///< horizontal Sobel gradient, clipped to ±cap: insensitive to exposure and slow shading
+};
+
+/// How a window's difference is measured (thesis, equations 2.1 to 2.3). All but kSad exist only in the naive
+/// implementation, so that the definitions can be compared.
+enum class Cost { kSad, kSsd, kMad };
+
+struct MatcherOptions {
+  int min_disparity = 0;             ///< 0…1024 px
+  int disparities = 64;              ///< 1…256; searched are [min_disparity, min_disparity + disparities)
+  int window = 11;                   ///< side of the square support window, odd, 3…31 px
+  Cost cost = Cost::kSad;
+  Prefilter prefilter = Prefilter::kXsobel;
+  int prefilter_cap = 31;            ///< 1…63 grey levels
+  int texture_threshold = 0;         ///< least sum over the window of |gradient| (clipped to the cap); 0 is off
+  int uniqueness_ratio = 0;          ///< %; a rival within this of the best cost, not beside it, rejects; 0 is off
+  int left_right_max_diff = -1;      ///< px the right image's own choice may differ; -1 is off
+  bool subpixel = true;              ///< answers in 1/16 px instead of whole pixels
+  int median = 0;                    ///< side of the median over the valid neighbours: 0 (off), 3 or 5
+  int speckle_size = 0;              ///< regions of up to this many pixels are removed; 0 is off
+  int speckle_max_diff = 1;          ///< px between neighbours of one region
+  Implementation implementation = Implementation::kSimd;
+  Isa isa = Isa::kAuto;
+
+  int units_per_pixel() const { return subpixel ? kSubpixelUnits : 1; }
+};
+
+/// Named settings: `thesis` (raw sums of absolute differences, no filter), `fast` (an answer for every pixel),
+/// `robust` (no ghosts). Nothing if there is no such preset.
+std::optional<MatcherOptions> matcher_preset(std::string_view name);
+inline constexpr std::string_view kMatcherPresets = "thesis, fast, robust";
+
+/// What is wrong with the options, as a sentence that names the option, what was found and what is allowed;
+/// nothing if they are fine.
+std::optional<std::string> problem_with(const MatcherOptions& options);
+
+/// The names used in configuration files, on command lines and in messages. parse_…: nothing if unknown.
+std::string_view name_of(Implementation implementation);
+std::string_view name_of(Isa isa);
+std::string_view name_of(Prefilter prefilter);
+std::string_view name_of(Cost cost);
+std::optional<Implementation> parse_implementation(std::string_view name);
+std::optional<Isa> parse_isa(std::string_view name);
+std::optional<Prefilter> parse_prefilter(std::string_view name);
+std::optional<Cost> parse_cost(std::string_view name);
+
+}  // namespace stereod

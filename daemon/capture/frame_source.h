@@ -1,0 +1,94 @@
+// The seam between cameras and the pipeline: whoever can lend frames is a frame source.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "core/image.h"
+
+namespace stereod {
+
+/// The brightness of a picture, read where it lies: `pixel_stride` is 1 for grey and planar formats, 2 for the
+/// Y of YUYV and UYVY.
+struct LumaView {
+  const std::uint8_t* data = nullptr;
+  Size size;
+  std::ptrdiff_t row_stride = 0;    ///< bytes
+  std::ptrdiff_t pixel_stride = 1;  ///< bytes
+};
+
+/// One frame of one camera.
+struct Frame {
+  LumaView luma;
+  std::int64_t captured_ns = 0;  ///< CLOCK_MONOTONIC at the start of exposure
+  std::uint32_t sequence = 0;    ///< the camera's own count; gaps are frames lost before us
+};
+
+/// Who takes a buffer back when the last user of a frame is done.
+class BufferOwner {
+ public:
+  virtual void give_back(int buffer) noexcept = 0;
+
+ protected:
+  ~BufferOwner() = default;
+};
+
+/// A frame on loan: its memory is valid until the lease is destroyed, which gives the buffer back. Leases end
+/// before their source does.
+class FrameLease {
+ public:
+  FrameLease() = default;
+  FrameLease(const Frame& frame, BufferOwner& owner, int buffer) : frame_(frame), owner_(&owner), buffer_(buffer) {}
+  FrameLease(FrameLease&& other) noexcept
+      : frame_(other.frame_), owner_(std::exchange(other.owner_, nullptr)), buffer_(other.buffer_) {}
+  FrameLease& operator=(FrameLease&& other) noexcept {
+    if (this != &other) {
+      end();
+      frame_ = other.frame_;
+      owner_ = std::exchange(other.owner_, nullptr);
+      buffer_ = other.buffer_;
+    }
+    return *this;
+  }
+  ~FrameLease() { end(); }
+
+  explicit operator bool() const { return owner_ != nullptr; }
+  const Frame& frame() const { return frame_; }
+  void end() noexcept {
+    if (BufferOwner* owner = std::exchange(owner_, nullptr)) owner->give_back(buffer_);
+  }
+
+ private:
+  Frame frame_;
+  BufferOwner* owner_ = nullptr;
+  int buffer_ = 0;
+};
+
+/// What a camera is doing, for the status message.
+enum class SourceState {
+  kWaiting,    ///< no frames yet, or none any more; it keeps trying
+  kStreaming,  ///< frames come
+  kFinished,   ///< a recording played to its end: no frame will ever come again
+};
+
+/// One camera: real, recorded or rendered. next() is called by one thread, the camera's own; give_back() by
+/// any; stop() by any, once, and makes next() return at once from then on.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  /// The size of every frame it lends.
+  virtual Size frame_size() const = 0;
+
+  /// Waits for the next frame. An empty lease means: none within the time-out, stopped, or finished; ask
+  /// state(). Allocates nothing and throws nothing.
+  virtual FrameLease next(std::chrono::milliseconds timeout) noexcept = 0;
+
+  virtual SourceState state() const noexcept = 0;
+  virtual void stop() noexcept = 0;
+};
+
+}  // namespace stereod
