@@ -52,7 +52,9 @@ class ImageView {
   ImageView(Pixel* data, int width, int height, std::ptrdiff_t stride)
       : data_(reinterpret_cast<Byte*>(data)), width_(width), height_(height), stride_(stride) {}
   /// A view to change is also a view to read.
-  ImageView(const ImageView<std::remove_const_t<Pixel>>& other) requires std::is_const_v<Pixel>
+  template <typename Other>
+    requires std::is_same_v<const Other, Pixel>
+  ImageView(const ImageView<Other>& other)
       : ImageView(other.row(0), other.width(), other.height(), other.stride()) {}
 
   int width() const { return width_; }

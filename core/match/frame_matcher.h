@@ -1,0 +1,34 @@
+// Matches whole pictures, cut into one band for each worker.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/match/band_matcher.h"
+#include "core/match/speckle.h"
+#include "core/worker_pool.h"
+
+namespace stereod {
+
+/// Matches pairs that lie in memory as a whole, as tools and tests have them. match() allocates nothing.
+class FrameMatcher {
+ public:
+  /// For images of size `image`. Throws what make_band_matcher() throws. The pool outlives the matcher.
+  FrameMatcher(const MatcherOptions& options, Size image, WorkerPool& pool);
+
+  /// Left and right are rectified and, like `out`, of the size given; `out` gets 1/units_per_pixel() px.
+  void match(GreyView left, GreyView right, ImageView<std::int16_t> out);
+
+ private:
+  static void match_band(BandMatcher& matcher, GreyView left, GreyView right, RowRange rows,
+                         ImageView<std::int16_t> out);
+
+  MatcherOptions options_;
+  Size image_;
+  WorkerPool& pool_;
+  std::vector<std::unique_ptr<BandMatcher>> matchers_;  // one for each worker
+  std::optional<SpeckleFilter> speckle_filter_;
+};
+
+}  // namespace stereod

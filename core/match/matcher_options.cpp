@@ -1,0 +1,108 @@
+#include "core/match/matcher_options.h"
+
+#include <array>
+#include <utility>
+
+namespace stereod {
+namespace {
+
+template <typename Enum, std::size_t N>
+using Names = std::array<std::pair<Enum, std::string_view>, N>;
+
+constexpr Names<Implementation, 3> kImplementations{
+    {{Implementation::kNaive, "naive"}, {Implementation::kSliding, "sliding"}, {Implementation::kSimd, "simd"}}};
+constexpr Names<Isa, 6> kIsas{{{Isa::kAuto, "auto"},
+                               {Isa::kScalar, "scalar"},
+                               {Isa::kSsse3, "ssse3"},
+                               {Isa::kSse41, "sse41"},
+                               {Isa::kAvx2, "avx2"},
+                               {Isa::kNeon, "neon"}}};
+constexpr Names<Prefilter, 2> kPrefilters{{{Prefilter::kNone, "none"}, {Prefilter::kXsobel, "xsobel"}}};
+constexpr Names<Cost, 3> kCosts{{{Cost::kSad, "sad"}, {Cost::kSsd, "ssd"}, {Cost::kMad, "mad"}}};
+
+template <typename Enum, std::size_t N>
+std::string_view find_name(const Names<Enum, N>& names, Enum value) {
+  for (const auto& [candidate, name] : names) {
+    if (candidate == value) return name;
+  }
+  return "?";
+}
+
+template <typename Enum, std::size_t N>
+std::optional<Enum> find_value(const Names<Enum, N>& names, std::string_view name) {
+  for (const auto& [value, candidate] : names) {
+    if (candidate == name) return value;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> outside(std::string_view option, int value, int least, int most) {
+  if (value >= least && value <= most) return std::nullopt;
+  return std::string(option) + " is " + std::to_string(value) + ", allowed are " + std::to_string(least) + " to " +
+         std::to_string(most);
+}
+
+}  // namespace
+
+std::string_view name_of(Implementation implementation) { return find_name(kImplementations, implementation); }
+std::string_view name_of(Isa isa) { return find_name(kIsas, isa); }
+std::string_view name_of(Prefilter prefilter) { return find_name(kPrefilters, prefilter); }
+std::string_view name_of(Cost cost) { return find_name(kCosts, cost); }
+
+std::optional<Implementation> parse_implementation(std::string_view name) {
+  return find_value(kImplementations, name);
+}
+std::optional<Isa> parse_isa(std::string_view name) { return find_value(kIsas, name); }
+std::optional<Prefilter> parse_prefilter(std::string_view name) { return find_value(kPrefilters, name); }
+std::optional<Cost> parse_cost(std::string_view name) { return find_value(kCosts, name); }
+
+std::optional<MatcherOptions> matcher_preset(std::string_view name) {
+  MatcherOptions options;
+  if (name == "thesis") {
+    options.prefilter = Prefilter::kNone;
+    options.subpixel = false;
+    return options;
+  }
+  if (name == "fast") return options;
+  if (name == "robust") {
+    options.texture_threshold = 200;
+    options.uniqueness_ratio = 10;
+    options.left_right_max_diff = 1;
+    options.median = 3;
+    options.speckle_size = 100;
+    return options;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> problem_with(const MatcherOptions& o) {
+  for (const auto& problem : {
+           outside("min_disparity", o.min_disparity, 0, 1024),
+           outside("disparities", o.disparities, 1, 256),
+           outside("window", o.window, 3, 31),
+           outside("prefilter_cap", o.prefilter_cap, 1, 63),
+           outside("texture_threshold", o.texture_threshold, 0, 100'000),
+           outside("uniqueness_ratio", o.uniqueness_ratio, 0, 100),
+           outside("left_right_max_diff", o.left_right_max_diff, -1, 255),
+           outside("speckle_size", o.speckle_size, 0, 1'000'000),
+           outside("speckle_max_diff", o.speckle_max_diff, 0, 255),
+       }) {
+    if (problem) return problem;
+  }
+  if (o.window % 2 == 0) return "window is " + std::to_string(o.window) + ", allowed are odd numbers from 3 to 31";
+  if (o.median != 0 && o.median != 3 && o.median != 5) {
+    return "median is " + std::to_string(o.median) + ", allowed are 0 (off), 3 and 5";
+  }
+  if (o.texture_threshold > 0 && o.prefilter == Prefilter::kNone) {
+    return "texture_threshold is " + std::to_string(o.texture_threshold) +
+           " but prefilter is none; the texture is measured on the xsobel picture, so set prefilter: xsobel or "
+           "texture_threshold: 0";
+  }
+  if (o.cost != Cost::kSad && o.implementation != Implementation::kNaive) {
+    return "cost is " + std::string(name_of(o.cost)) + " but implementation is " +
+           std::string(name_of(o.implementation)) + "; costs other than sad exist only in implementation: naive";
+  }
+  return std::nullopt;
+}
+
+}  // namespace stereod

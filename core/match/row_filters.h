@@ -1,0 +1,47 @@
+// From a row's winners to its disparities: interpolation and the tests that make a pixel invalid. Each costs
+// nothing when it is off.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/aligned_buffer.h"
+#include "core/match/matcher_options.h"
+#include "core/match/row_search.h"
+
+namespace stereod {
+
+/// Writes the disparity of each column in [winners.first, winners.end): whole pixels or, with subpixel, 1/16 px
+/// (docs/matcher.md, section 3).
+void write_disparities(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept;
+
+/// Invalidates pixels with a rival whose cost is within `uniqueness_ratio` percent.
+void reject_ambiguous(const RowWinners& winners, int uniqueness_ratio, std::int16_t* out) noexcept;
+
+/// Invalidates pixels whose match in the right image is claimed by a better one of other disparity.
+class LeftRightCheck {
+ public:
+  explicit LeftRightCheck(int width);
+  void reject(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept;
+  std::size_t scratch_bytes() const noexcept;
+
+ private:
+  AlignedBuffer<std::uint32_t> claim_cost_;  // by column of the right image
+  AlignedBuffer<std::uint16_t> claim_index_;
+};
+
+/// Invalidates pixels whose window has too little horizontal gradient to be matched. Works on xsobel rows.
+class TextureCheck {
+ public:
+  explicit TextureCheck(int width);
+  void reset() noexcept;
+  /// `added` comes into the window; `removed`, `window` rows older, leaves it, or is null while it fills.
+  void add_row(const std::uint8_t* added, const std::uint8_t* removed, int cap) noexcept;
+  void reject(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept;
+  std::size_t scratch_bytes() const noexcept;
+
+ private:
+  AlignedBuffer<std::int32_t> column_sums_;
+};
+
+}  // namespace stereod

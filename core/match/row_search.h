@@ -1,0 +1,83 @@
+// The seam inside the block matcher: how the best disparity of each pixel of a row is found.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "core/aligned_buffer.h"
+#include "core/image.h"
+#include "core/match/matcher_options.h"
+
+namespace stereod {
+
+/// What the search of one row found: an entry for each column in [first, end), none elsewhere. k is
+/// disparity − min_disparity; n = min(disparities, x − first + 1) of them were searched in column x.
+struct RowWinners {
+  explicit RowWinners(int width)
+      : index(static_cast<std::size_t>(width)),
+        cost(static_cast<std::size_t>(width)),
+        before(static_cast<std::size_t>(width)),
+        after(static_cast<std::size_t>(width)),
+        rival(static_cast<std::size_t>(width)) {}
+
+  static constexpr std::uint32_t kNoRival = std::numeric_limits<std::uint32_t>::max();
+
+  int first = 0;
+  int end = 0;
+  AlignedBuffer<std::uint16_t> index;  ///< k of the winner
+  AlignedBuffer<std::uint32_t> cost;   ///< C(k)
+  AlignedBuffer<std::uint32_t> before; ///< C(k−1); meaningless where k is the first or last searched
+  AlignedBuffer<std::uint32_t> after;  ///< C(k+1); likewise
+  AlignedBuffer<std::uint32_t> rival;  ///< least C(k') with |k' − k| > 1, kNoRival if there is none
+};
+
+/// Takes prefiltered rows one after the other and finds winners for the row in the middle of the last `window`
+/// of them. Allocates only in the constructor.
+class RowSearch {
+ public:
+  virtual ~RowSearch() = default;
+
+  /// Forgets all rows.
+  virtual void reset() noexcept = 0;
+
+  /// Adds the next row of both pictures. The memory stays as it is until `window` more rows were added.
+  /// Fills `winners` unless null, which is for the first window − 1 rows; `before` and `after` only with
+  /// subpixel, `rival` only with uniqueness_ratio.
+  virtual void add_row(const std::uint8_t* left, const std::uint8_t* right, RowWinners* winners) noexcept = 0;
+
+  virtual std::size_t scratch_bytes() const noexcept = 0;
+};
+
+/// The columns that have an answer: [min_disparity + r, width − r); empty where first ≥ end.
+inline int first_answered_column(const MatcherOptions& options) {
+  return options.min_disparity + options.window / 2;
+}
+inline int end_answered_column(const MatcherOptions& options, int width) { return width - options.window / 2; }
+
+/// The searches of the three implementations, for rows of `width` pixels wide enough to have an answer.
+std::unique_ptr<RowSearch> make_naive_search(const MatcherOptions& options, int width);
+std::unique_ptr<RowSearch> make_sliding_search(const MatcherOptions& options, int width);
+std::unique_ptr<RowSearch> make_simd_search(const MatcherOptions& options, int width);
+
+/// Writes what RowWinners holds for column x, from the costs of the n disparities searched there. Cost(k)
+/// returns C(k). The definition of the winner, its neighbours and its rival (docs/matcher.md, sections 2 to 4).
+template <typename CostOf>
+void pick_winner(int x, int n, CostOf cost, RowWinners& winners) {
+  int best = 0;
+  for (int k = 1; k < n; ++k) {
+    if (cost(k) < cost(best)) best = k;
+  }
+  const auto at = static_cast<std::size_t>(x);
+  winners.index[at] = static_cast<std::uint16_t>(best);
+  winners.cost[at] = cost(best);
+  winners.before[at] = best > 0 ? cost(best - 1) : 0;
+  winners.after[at] = best < n - 1 ? cost(best + 1) : 0;
+  winners.rival[at] = RowWinners::kNoRival;
+  for (int k = 0; k < n; ++k) {
+    if ((k < best - 1 || k > best + 1) && cost(k) < winners.rival[at]) winners.rival[at] = cost(k);
+  }
+}
+
+}  // namespace stereod
