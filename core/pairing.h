@@ -1,0 +1,136 @@
+// Which frames of two free-running cameras belong together.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+namespace stereod {
+
+enum class Side { kLeft, kRight };
+constexpr Side opposite(Side side) { return side == Side::kLeft ? Side::kRight : Side::kLeft; }
+
+/// A left and a right frame taken at about the same time.
+template <typename Frame>
+struct FramePair {
+  Frame left, right;
+  std::int64_t left_ns = 0, right_ns = 0;  ///< when they were captured
+  std::int64_t skew_ns() const { return right_ns - left_ns; }
+};
+
+/// What became of the frames.
+struct PairingCounts {
+  std::int64_t pairs = 0;                     ///< made, whether or not they were taken in time
+  std::int64_t pairs_superseded = 0;          ///< not taken before a newer pair was there
+  std::int64_t left_without_partner = 0;      ///< no right frame was near enough in time
+  std::int64_t right_without_partner = 0;
+  std::int64_t frames_before_time_jump = 0;   ///< dropped because a camera's clock went backwards
+};
+
+/// Pairs frames by nearest time, newest first. It holds at most one frame of each camera that waits for a
+/// partner and one pair that waits to be taken; whatever else there is is dropped at once and counted, so nothing
+/// ever queues up. Frame is movable (a lease on a buffer, say); dropping one destroys it.
+///
+/// A frame is paired with the waiting one of the other camera if they are within the tolerance. If instead it is
+/// nearer to a member of the pair not yet taken than that member's partner is, it takes the partner's place. With
+/// a tolerance of half a frame time the first rule alone already finds the nearest.
+template <typename Frame>
+class Pairing {
+ public:
+  /// `tolerance_ns`: the largest difference of capture times within a pair.
+  explicit Pairing(std::int64_t tolerance_ns) : tolerance_ns_(tolerance_ns) {}
+
+  /// Takes a frame of one camera, captured at `time_ns`.
+  void add(Side side, Frame frame, std::int64_t time_ns) {
+    notice_time_jump(side, time_ns);
+    Waiting& own = waiting(side);
+    Waiting& other = waiting(opposite(side));
+    if (other && distance(other->time_ns, time_ns) <= tolerance_ns_) {
+      if (own) drop(side);
+      make_pair(side, std::move(frame), time_ns);
+    } else if (is_nearer_than_partner(side, time_ns)) {
+      replace_partner(side, std::move(frame), time_ns);
+    } else if (other && other->time_ns > time_ns) {
+      count_without_partner(side);  // every later frame of the other camera is even later
+    } else {
+      if (other) drop(opposite(side));  // every later frame of this camera is even later
+      if (own) drop(side);
+      own.emplace(Stamped{std::move(frame), time_ns});
+    }
+  }
+
+  bool has_pair() const { return ready_.has_value(); }
+
+  /// The newest pair, if there is one that was not taken yet.
+  std::optional<FramePair<Frame>> take() { return std::exchange(ready_, std::nullopt); }
+
+  /// Drops every frame it holds.
+  void clear() {
+    left_.reset();
+    right_.reset();
+    ready_.reset();
+  }
+
+  const PairingCounts& counts() const { return counts_; }
+
+ private:
+  struct Stamped {
+    Frame frame;
+    std::int64_t time_ns;
+  };
+  using Waiting = std::optional<Stamped>;
+
+  static std::int64_t distance(std::int64_t a, std::int64_t b) { return a > b ? a - b : b - a; }
+  Waiting& waiting(Side side) { return side == Side::kLeft ? left_ : right_; }
+
+  void notice_time_jump(Side side, std::int64_t time_ns) {
+    std::optional<std::int64_t>& last = side == Side::kLeft ? last_left_ns_ : last_right_ns_;
+    if (last && time_ns < *last) {
+      counts_.frames_before_time_jump += (left_ ? 1 : 0) + (right_ ? 1 : 0);
+      left_.reset();
+      right_.reset();
+    }
+    last = time_ns;
+  }
+
+  void make_pair(Side side, Frame frame, std::int64_t time_ns) {
+    Stamped partner = std::move(*waiting(opposite(side)));
+    waiting(opposite(side)).reset();
+    if (ready_) ++counts_.pairs_superseded;
+    ++counts_.pairs;
+    if (side == Side::kLeft) {
+      ready_.emplace(FramePair<Frame>{std::move(frame), std::move(partner.frame), time_ns, partner.time_ns});
+    } else {
+      ready_.emplace(FramePair<Frame>{std::move(partner.frame), std::move(frame), partner.time_ns, time_ns});
+    }
+  }
+
+  bool is_nearer_than_partner(Side side, std::int64_t time_ns) const {
+    if (!ready_) return false;
+    const std::int64_t fixed_ns = side == Side::kLeft ? ready_->right_ns : ready_->left_ns;
+    return distance(fixed_ns, time_ns) < distance(ready_->left_ns, ready_->right_ns);
+  }
+
+  void replace_partner(Side side, Frame frame, std::int64_t time_ns) {
+    count_without_partner(side);
+    (side == Side::kLeft ? ready_->left : ready_->right) = std::move(frame);
+    (side == Side::kLeft ? ready_->left_ns : ready_->right_ns) = time_ns;
+  }
+
+  void drop(Side side) {
+    waiting(side).reset();
+    count_without_partner(side);
+  }
+
+  void count_without_partner(Side side) {
+    ++(side == Side::kLeft ? counts_.left_without_partner : counts_.right_without_partner);
+  }
+
+  std::int64_t tolerance_ns_;
+  Waiting left_, right_;
+  std::optional<std::int64_t> last_left_ns_, last_right_ns_;
+  std::optional<FramePair<Frame>> ready_;
+  PairingCounts counts_;
+};
+
+}  // namespace stereod

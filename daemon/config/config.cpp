@@ -1,0 +1,141 @@
+#include "daemon/config/config.h"
+
+#include <algorithm>
+#include <array>
+#include <thread>
+
+#include "daemon/config/yaml_section.h"
+
+namespace stereod {
+namespace {
+
+constexpr std::size_t kLongestPrefix = 40;  // LCM's channel names have at most 63 characters
+
+std::optional<SourceKind> parse_source_kind(std::string_view name) {
+  if (name == "replay") return SourceKind::kReplay;
+  if (name == "synthetic") return SourceKind::kSynthetic;
+  return std::nullopt;
+}
+
+void read_replay(YamlSection section, CamerasConfig& cameras) {
+  cameras.replay_left = section.file_name("left");
+  cameras.replay_right = section.file_name("right");
+  cameras.replay_folder = section.file_name("folder");
+  cameras.replay_loop = section.flag("loop", cameras.replay_loop);
+  section.finish();
+  const bool pair = !cameras.replay_left.empty() && !cameras.replay_right.empty();
+  const bool half = cameras.replay_left.empty() != cameras.replay_right.empty();
+  if (half || pair != cameras.replay_folder.empty()) {
+    section.fail("left", "found " + std::string(half ? "one of left and right" : pair ? "both a pair and a folder" : "nothing to play") +
+                             ", allowed are either left and right, two pictures, or folder, one with numbered pairs");
+  }
+}
+
+void read_synthetic(YamlSection section, CamerasConfig& cameras) {
+  cameras.width = section.integer("width", cameras.width, 64, 4096);
+  cameras.height = section.integer("height", cameras.height, 48, 4096);
+  cameras.skew_ms = section.number("skew_ms", cameras.skew_ms, -100, 100);
+  section.finish();
+}
+
+void read_cameras(YamlSection section, CamerasConfig& cameras) {
+  section.required_text("source");
+  cameras.source = section.choice<SourceKind>("source", cameras.source, "replay and synthetic", parse_source_kind);
+  cameras.fps = section.number("fps", cameras.fps, 0, 240);
+  cameras.max_skew_ms = section.number("max_skew_ms", cameras.max_skew_ms, 0, 1000);
+  // A section for another source may stay in the file; it is checked all the same.
+  YamlSection replay = section.section("replay");
+  YamlSection synthetic = section.section("synthetic");
+  if (cameras.source == SourceKind::kReplay || section.has("replay")) read_replay(std::move(replay), cameras);
+  read_synthetic(std::move(synthetic), cameras);
+  section.finish();
+}
+
+void read_matcher(YamlSection section, MatcherOptions& options) {
+  const std::string preset = section.text("preset", "robust");
+  const auto chosen = matcher_preset(preset);
+  if (!chosen) section.fail("preset", "found '" + preset + "', allowed are " + std::string(kMatcherPresets));
+  options = *chosen;
+  options.min_disparity = section.integer("min_disparity", options.min_disparity, 0, 1024);
+  options.disparities = section.integer("disparities", options.disparities, 1, 256);
+  options.window = section.integer("window", options.window, 3, 31);
+  if (options.window % 2 == 0) {
+    section.fail("window", "found " + std::to_string(options.window) + ", allowed are odd numbers from 3 to 31");
+  }
+  options.cost = section.choice<Cost>("cost", options.cost, "sad, ssd and mad", parse_cost);
+  options.prefilter = section.choice<Prefilter>("prefilter", options.prefilter, "none and xsobel", parse_prefilter);
+  options.prefilter_cap = section.integer("prefilter_cap", options.prefilter_cap, 1, 63);
+  // A preset without a prefilter to measure it on has no texture threshold.
+  if (options.prefilter == Prefilter::kNone) options.texture_threshold = 0;
+  options.texture_threshold = section.integer("texture_threshold", options.texture_threshold, 0, 100'000);
+  options.uniqueness_ratio = section.integer("uniqueness_ratio", options.uniqueness_ratio, 0, 100);
+  options.left_right_max_diff = section.integer("left_right_max_diff", options.left_right_max_diff, -1, 255);
+  options.subpixel = section.flag("subpixel", options.subpixel);
+  options.median = section.integer("median", options.median, 0, 5);
+  options.speckle_size = section.integer("speckle_size", options.speckle_size, 0, 1'000'000);
+  options.speckle_max_diff = section.integer("speckle_max_diff", options.speckle_max_diff, 0, 255);
+  options.implementation = section.choice<Implementation>("implementation", options.implementation,
+                                                          "naive, sliding and simd", parse_implementation);
+  options.isa =
+      section.choice<Isa>("isa", options.isa, "auto, scalar, ssse3, sse41, avx2 and neon", parse_isa);
+  section.finish();
+  if (const auto problem = problem_with(options)) {  // what is left are combinations of keys
+    section.fail(problem->substr(0, problem->find(' ')), *problem);
+  }
+}
+
+void read_lcm(YamlSection section, LcmConfig& lcm) {
+  lcm.url = section.text("url", lcm.url);
+  lcm.prefix = section.text("prefix", lcm.prefix);
+  const bool plain = std::all_of(lcm.prefix.begin(), lcm.prefix.end(), [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+  });
+  if (lcm.prefix.empty() || lcm.prefix.size() > kLongestPrefix || !plain) {
+    section.fail("prefix", "found '" + lcm.prefix + "', allowed are 1 to " + std::to_string(kLongestPrefix) +
+                               " letters, digits, '_', '-' and '.'");
+  }
+  lcm.rows_per_message = section.integer("rows_per_message", lcm.rows_per_message, 1, 4096);
+  lcm.spread = section.number("spread", lcm.spread, 0, 0.9);
+  section.finish();
+}
+
+std::string read_log_level(YamlSection section, const std::string& otherwise) {
+  constexpr std::array<std::string_view, 4> kLevels{"debug", "info", "warning", "error"};
+  const std::string level = section.choice<std::string>(
+      "level", otherwise, "debug, info, warning and error", [&](std::string_view name) -> std::optional<std::string> {
+        if (std::find(kLevels.begin(), kLevels.end(), name) == kLevels.end()) return std::nullopt;
+        return std::string(name);
+      });
+  section.finish();
+  return level;
+}
+
+}  // namespace
+
+std::string_view name_of(SourceKind kind) { return kind == SourceKind::kReplay ? "replay" : "synthetic"; }
+
+std::int64_t CamerasConfig::pairing_tolerance_ns() const {
+  if (max_skew_ms > 0) return static_cast<std::int64_t>(max_skew_ms * 1e6);
+  const double rate = fps > 0 ? fps : 30;
+  return static_cast<std::int64_t>(0.5e9 / rate);
+}
+
+int Config::worker_count() const {
+  if (workers > 0) return workers;
+  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 64u));
+}
+
+Config read_config(const std::filesystem::path& file) {
+  YamlSection root(file, load_yaml_map(file));
+  Config config;
+  read_cameras(root.required_section("cameras"), config.cameras);
+  config.calibration = root.file_name("calibration");
+  read_matcher(root.section("matcher"), config.matcher);
+  config.workers = root.integer("workers", config.workers, 0, 64);
+  read_lcm(root.section("lcm"), config.lcm);
+  config.log_level = read_log_level(root.section("log"), config.log_level);
+  root.finish();
+  return config;
+}
+
+}  // namespace stereod
