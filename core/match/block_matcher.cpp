@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "core/match/isa.h"
-#include "core/match/median.h"
 #include "core/match/prefilter.h"
 
 namespace stereod {
@@ -38,10 +37,13 @@ BlockMatcher::BlockMatcher(const MatcherOptions& options, Size image)
       right_prefiltered_(prefiltered() ? image.width : 0, options.window + 1),
       search_(make_search(options, image.width)),
       winners_(image.width),
-      raw_(image.width, kOutputRows),
-      median_(options.median > 0 ? image.width : 0, kOutputRows),
-      invalid_row_(static_cast<std::size_t>(image.width)) {
+      raw_(image.width + 2 * kMedianMargin, kOutputRows),
+      median_(options.median > 0 ? image.width + kMedianMargin : 0, kOutputRows),
+      invalid_row_(static_cast<std::size_t>(image.width + 2 * kMedianMargin)) {
   std::fill(invalid_row_.begin(), invalid_row_.end(), kInvalidDisparity);
+  for (int y = 0; y < kOutputRows; ++y) {
+    std::fill_n(raw_.row(y), image.width + 2 * kMedianMargin, kInvalidDisparity);
+  }
   if (options.left_right_max_diff >= 0) left_right_check_.emplace(image.width);
   if (options.texture_threshold > 0) texture_check_.emplace(image.width);
   const int r = window_radius();
@@ -107,7 +109,7 @@ void BlockMatcher::search_row(int y) noexcept {
   }
   if (!full) return;
 
-  std::int16_t* out = raw_.row(y - window_radius());
+  std::int16_t* out = raw_row(y - window_radius());
   std::fill_n(out, winners_.first, kInvalidDisparity);
   std::fill(out + winners_.end, out + image_.width, kInvalidDisparity);
   write_disparities(winners_, options_, out);
@@ -125,15 +127,16 @@ void BlockMatcher::finish_rows(int end) noexcept {
 
 void BlockMatcher::filter_row(int y) noexcept {
   std::array<const std::int16_t*, 5> rows;
-  int count = 0;
-  const RowRange around = grown({y, y + 1}, median_radius(), searched_);
-  for (int row = around.first; row < around.end; ++row) rows[static_cast<std::size_t>(count++)] = raw_.row(row);
-  median_row(rows.data(), count, raw_.row(y), image_.width, median_radius(), median_.row(y));
+  for (int i = 0; i < options_.median; ++i) {
+    const int row = y + i - median_radius();
+    rows[static_cast<std::size_t>(i)] = row >= searched_.first && row < searched_.end ? raw_row(row) : invalid_row();
+  }
+  median_row(rows.data(), image_.width, median_radius(), median_.row(y));
 }
 
 const std::int16_t* BlockMatcher::disparity_row(int y) const noexcept {
-  if (y < searched_.first || y >= searched_.end) return invalid_row_.data();
-  return options_.median > 0 ? median_.row(y) : raw_.row(y);
+  if (y < searched_.first || y >= searched_.end) return invalid_row();
+  return options_.median > 0 ? median_.row(y) : raw_row(y);
 }
 
 std::size_t BlockMatcher::scratch_bytes() const noexcept {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/match/band_matcher.h"
+#include "core/match/median.h"
 #include "core/match/row_filters.h"
 #include "core/match/row_ring.h"
 #include "core/match/row_search.h"
@@ -29,6 +30,9 @@ class BlockMatcher final : public BandMatcher {
   bool prefiltered() const { return options_.prefilter == Prefilter::kXsobel; }
   int window_radius() const { return options_.window / 2; }
   int median_radius() const { return options_.median / 2; }
+  std::int16_t* raw_row(int y) noexcept { return raw_.row(y) + kMedianMargin; }
+  const std::int16_t* raw_row(int y) const noexcept { return raw_.row(y) + kMedianMargin; }
+  const std::int16_t* invalid_row() const noexcept { return invalid_row_.data() + kMedianMargin; }
 
   void prefilter_row(int y) noexcept;
   void search_row(int y) noexcept;
@@ -50,7 +54,7 @@ class BlockMatcher final : public BandMatcher {
   RowWinners winners_;
   std::optional<LeftRightCheck> left_right_check_;
   std::optional<TextureCheck> texture_check_;
-  RowRing<std::int16_t> raw_;
+  RowRing<std::int16_t> raw_;  // with kMedianMargin invalid pixels on either side, like invalid_row_
   RowRing<std::int16_t> median_;
   AlignedBuffer<std::int16_t> invalid_row_;
 };

@@ -8,39 +8,49 @@ namespace {
 
 std::size_t at(int x) { return static_cast<std::size_t>(x); }
 
-// Offset of the vertex of two lines of equal and opposite slope through three costs, in 1/16 px, −8…8.
-int vertex_offset(std::int64_t before, std::int64_t cost, std::int64_t after) {
-  const std::int64_t height = std::max(before, after) - cost;
-  if (height <= 0) return 0;
-  const std::int64_t rise = 8 * (before - after);
-  const std::int64_t magnitude = (2 * std::abs(rise) + height) / (2 * height);
-  return static_cast<int>(rise < 0 ? -magnitude : magnitude);
+// Offset of the vertex of two lines of equal and opposite slope through three costs, in 1/16 px, −8…8. Doubles hold
+// every number here exactly, and a quotient of such numbers that is not a half is too far from one to be rounded to
+// it: the result is that of integer arithmetic, but vectors can do it.
+double vertex_offset(std::int32_t before, std::int32_t cost, std::int32_t after) {
+  const std::int32_t height = (before > after ? before : after) - cost;
+  const double offset = 8.0 * (before - after) / (height > 0 ? height : 1);
+  return offset < 0 ? offset - 0.5 : offset + 0.5;
 }
 
 }  // namespace
 
 void write_disparities(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept {
+  const int first = winners.first;
   if (!options.subpixel) {
-    for (int x = winners.first; x < winners.end; ++x) {
+    for (int x = first; x < winners.end; ++x) {
       out[x] = static_cast<std::int16_t>(options.min_disparity + winners.index[at(x)]);
     }
     return;
   }
-  for (int x = winners.first; x < winners.end; ++x) {
-    const int k = winners.index[at(x)];
-    const int searched = std::min(options.disparities, x - winners.first + 1);
-    const bool inside = k > 0 && k < searched - 1;
-    const int offset =
-        inside ? vertex_offset(winners.before[at(x)], winners.cost[at(x)], winners.after[at(x)]) : 0;
-    out[x] = static_cast<std::int16_t>(kSubpixelUnits * (options.min_disparity + k) + offset);
+  const std::uint16_t* index = winners.index.data();
+  const std::uint32_t* cost = winners.cost.data();
+  const std::uint32_t* before = winners.before.data();
+  const std::uint32_t* after = winners.after.data();
+  for (int x = first; x < winners.end; ++x) {
+    const int k = index[x];
+    const int last = options.disparities - 1 < x - first ? options.disparities - 1 : x - first;
+    const auto offset = static_cast<std::int32_t>(vertex_offset(static_cast<std::int32_t>(before[x]),
+                                                                static_cast<std::int32_t>(cost[x]),
+                                                                static_cast<std::int32_t>(after[x])));
+    const bool inside = (k > 0) & (k < last);
+    out[x] = static_cast<std::int16_t>(kSubpixelUnits * (options.min_disparity + k) + (inside ? offset : 0));
   }
 }
 
 void reject_ambiguous(const RowWinners& winners, int uniqueness_ratio, std::int16_t* out) noexcept {
+  const std::uint32_t* cost = winners.cost.data();
+  const std::uint32_t* rival = winners.rival.data();
+  const auto percent = static_cast<std::uint32_t>(uniqueness_ratio);
   for (int x = winners.first; x < winners.end; ++x) {
-    const std::uint64_t cost = winners.cost[at(x)];
-    const std::uint64_t limit = cost + cost * static_cast<std::uint64_t>(uniqueness_ratio) / 100;
-    if (winners.rival[at(x)] != RowWinners::kNoRival && winners.rival[at(x)] <= limit) out[x] = kInvalidDisparity;
+    // rival ≤ cost + cost·percent/100 without the division; a rival is never below the cost.
+    const std::uint64_t lead = std::uint64_t{100} * (rival[x] - cost[x]);
+    const std::uint64_t allowed = std::uint64_t{percent} * cost[x];
+    out[x] = lead <= allowed ? kInvalidDisparity : out[x];
   }
 }
 

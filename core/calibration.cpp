@@ -1,0 +1,121 @@
+#include "core/calibration.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+
+namespace stereod {
+
+namespace {
+
+using Problem = std::optional<std::string>;
+
+// Calls visit(name, number) for each number of one camera.
+template <typename Visit>
+void each_number(const CameraCalibration& c, Visit&& visit) {
+  const CameraModel& m = c.camera;
+  visit("fx", m.fx), visit("fy", m.fy), visit("cx", m.cx), visit("cy", m.cy);
+  visit("k1", m.k1), visit("k2", m.k2), visit("p1", m.p1), visit("p2", m.p2);
+  visit("k3", m.k3), visit("k4", m.k4), visit("k5", m.k5), visit("k6", m.k6);
+  for (const double element : c.rotation.m) visit("rotation", element);
+  const RectifiedProjection& p = c.projection;
+  visit("projection fx", p.fx), visit("projection fy", p.fy);
+  visit("projection cx", p.cx), visit("projection cy", p.cy);
+}
+
+std::string text(double number) {
+  std::ostringstream out;
+  out.precision(10);
+  out << number;
+  return out.str();
+}
+
+std::string text(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
+
+bool is_rotation(const Matrix3& r) {
+  constexpr double kTolerance = 1e-6;
+  const Matrix3 product = r * transposed(r);
+  const Matrix3 identity;
+  for (std::size_t i = 0; i < 9; ++i) {
+    if (std::abs(product.m[i] - identity.m[i]) > kTolerance) return false;
+  }
+  return determinant(r) > 0;  // it is +1 or -1 here
+}
+
+Problem problem_with_camera(const std::string& name, const CameraCalibration& c, Size image) {
+  Problem problem;
+  each_number(c, [&](const char* what, double number) {
+    if (!problem && !std::isfinite(number)) {
+      problem =
+          "the " + name + " camera's " + what + " is " + text(number) + ", which is not a finite number";
+    }
+  });
+  if (problem) return problem;
+  if (c.camera.image != image) {
+    return "the " + name + " camera's images are " + text(c.camera.image) + ", the calibration's are " +
+           text(image);
+  }
+  if (!(c.camera.fx > 0 && c.camera.fy > 0)) {
+    return "the " + name + " camera's focal lengths are " + text(c.camera.fx) + " and " + text(c.camera.fy) +
+           " pixels; both must be greater than 0";
+  }
+  if (!(c.projection.fx > 0 && c.projection.fy > 0)) {
+    return "the " + name + " projection's focal lengths are " + text(c.projection.fx) + " and " +
+           text(c.projection.fy) + " pixels; both must be greater than 0";
+  }
+  if (!is_rotation(c.rotation)) {
+    return "the " + name +
+           " camera's rotation is not one: its rows must be orthonormal to 0.000001 and its determinant +1";
+  }
+  return std::nullopt;
+}
+
+Problem problem_with_rows(const RectifiedProjection& left, const RectifiedProjection& right) {
+  constexpr double kTolerance = 1e-6;  // px
+  const auto differ = [](const std::string& what, double l, double r, const std::string& so) -> Problem {
+    if (std::abs(l - r) <= kTolerance) return std::nullopt;
+    return "the projections' " + what + " differ (left " + text(l) + ", right " + text(r) + "), so " + so;
+  };
+  const std::string rows = "the rows of the rectified images do not align";
+  if (Problem p = differ("fy", left.fy, right.fy, rows)) return p;
+  if (Problem p = differ("cy", left.cy, right.cy, rows)) return p;
+  return differ("fx", left.fx, right.fx, "a disparity has no one depth");
+}
+
+}  // namespace
+
+std::optional<std::string> problem_with(const Calibration& calibration) {
+  const Size image = calibration.image;
+  if (image.width < 1 || image.height < 1) {
+    return "the image size is " + text(image) + "; width and height must be at least 1";
+  }
+  if (Problem p = problem_with_camera("left", calibration.left, image)) return p;
+  if (Problem p = problem_with_camera("right", calibration.right, image)) return p;
+  if (!std::isfinite(calibration.baseline_m) || !(calibration.baseline_m > 0)) {
+    return "the baseline is " + text(calibration.baseline_m) + " m; it must be greater than 0";
+  }
+  const CalibrationQuality& quality = calibration.quality;
+  if (!std::isfinite(quality.rms_px) || !std::isfinite(quality.epipolar_error_px)) {
+    return "the quality's numbers are " + text(quality.rms_px) + " px and " +
+           text(quality.epipolar_error_px) + " px; both must be finite";
+  }
+  return problem_with_rows(calibration.left.projection, calibration.right.projection);
+}
+
+std::string calibration_id(const Calibration& calibration) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  const auto add = [&](const char*, double number) {
+    std::uint64_t bits = std::bit_cast<std::uint64_t>(number);
+    for (int byte = 0; byte < 8; ++byte, bits >>= 8) hash = (hash ^ (bits & 0xff)) * 0x100000001b3;
+  };
+  add("", calibration.image.width), add("", calibration.image.height), add("", calibration.baseline_m);
+  each_number(calibration.left, add);
+  each_number(calibration.right, add);
+
+  std::string digits(16, '0');
+  for (std::size_t i = 16; i-- > 0; hash >>= 4) digits[i] = "0123456789abcdef"[hash & 0xf];
+  return digits;
+}
+
+}  // namespace stereod

@@ -1,0 +1,55 @@
+// What a calibrated pair of cameras is.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/camera_model.h"
+#include "core/image.h"
+
+namespace stereod {
+
+/// The pinhole camera that a rectified image seems to be taken with; all in pixels.
+struct RectifiedProjection {
+  double fx = 0, fy = 0;
+  double cx = 0, cy = 0;
+  friend bool operator==(const RectifiedProjection&, const RectifiedProjection&) = default;
+};
+
+/// One camera of the pair. `rotation` turns directions of the camera into directions of the rectified camera.
+struct CameraCalibration {
+  CameraModel camera;
+  Matrix3 rotation;
+  RectifiedProjection projection;
+  friend bool operator==(const CameraCalibration&, const CameraCalibration&) = default;
+};
+
+/// How good a calibration is.
+struct CalibrationQuality {
+  int pairs_used = 0;
+  double rms_px = 0;             ///< reprojection error over the pairs used
+  double epipolar_error_px = 0;  ///< mean difference of rows of a point in the rectified images
+  friend bool operator==(const CalibrationQuality&, const CalibrationQuality&) = default;
+};
+
+/// A stereo pair whose rectified images have aligned rows: both projections share fx, fy and cy, and the
+/// right camera lies `baseline_m` metres along the x axis of the rectified left one.
+struct Calibration {
+  Size image;  ///< of the source images and of the rectified ones
+  CameraCalibration left, right;
+  double baseline_m = 0;
+  std::string id;  ///< see calibration_id()
+  CalibrationQuality quality;
+  friend bool operator==(const Calibration&, const Calibration&) = default;
+};
+
+/// What makes `calibration` unusable, as one sentence that names the place; nothing if it is sound: every
+/// number finite, sizes equal, focal lengths and baseline positive, rotations orthonormal to 1e-6 with
+/// determinant +1, projections that align rows.
+std::optional<std::string> problem_with(const Calibration& calibration);
+
+/// 16 hexadecimal digits that change when any number of the geometry does (FNV-1a, 64 bit, over the numbers
+/// of both cameras, the size and the baseline; not the quality).
+std::string calibration_id(const Calibration& calibration);
+
+}  // namespace stereod

@@ -1,0 +1,57 @@
+#include "daemon/capture/rig.h"
+
+#include <chrono>
+
+#include "daemon/capture/replay_source.h"
+#include "daemon/capture/synthetic_source.h"
+#include "daemon/config/calibration_file.h"
+#include "daemon/config/file_error.h"
+
+namespace stereod {
+namespace {
+
+std::string in_words(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
+
+Rig open_replay_rig(const CamerasConfig& cameras) {
+  const ReplayOptions options{cameras.fps, cameras.replay_loop};
+  const bool folder = !cameras.replay_folder.empty();
+  ReplaySources sources = folder ? open_replay(cameras.replay_folder, options)
+                                 : open_replay(cameras.replay_left, cameras.replay_right, options);
+  Rig rig;
+  rig.left = std::move(sources.left);
+  rig.right = std::move(sources.right);
+  rig.left_name = "replay of " + (folder ? cameras.replay_folder : cameras.replay_left).string();
+  rig.right_name = "replay of " + (folder ? cameras.replay_folder : cameras.replay_right).string();
+  return rig;
+}
+
+Rig open_synthetic_rig(const CamerasConfig& cameras) {
+  SyntheticOptions options;
+  options.size = {cameras.width, cameras.height};
+  options.fps = cameras.fps;
+  options.skew = std::chrono::microseconds(static_cast<std::int64_t>(cameras.skew_ms * 1000));
+  SyntheticPair pair = make_synthetic_pair(options);
+  Rig rig;
+  rig.left = std::move(pair.left);
+  rig.right = std::move(pair.right);
+  rig.left_name = rig.right_name = "synthetic scene";
+  rig.calibration = std::move(pair.calibration);
+  return rig;
+}
+
+}  // namespace
+
+Rig open_rig(const Config& config) {
+  Rig rig = config.cameras.source == SourceKind::kReplay ? open_replay_rig(config.cameras)
+                                                         : open_synthetic_rig(config.cameras);
+  if (!config.calibration.empty()) rig.calibration = read_calibration(config.calibration);
+  const Size size = rig.left->frame_size();
+  if (rig.calibration && rig.calibration->image != size) {
+    throw FileError(config.calibration.string() + ": the calibration is for images of " +
+                    in_words(rig.calibration->image) + ", the cameras give " + in_words(size) +
+                    "; calibrate at that size or set the cameras to the calibration's");
+  }
+  return rig;
+}
+
+}  // namespace stereod

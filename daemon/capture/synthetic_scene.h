@@ -1,0 +1,65 @@
+// A rendered scene with two flawed cameras, of which everything is known exactly.
+#pragma once
+
+#include <cstdint>
+
+#include "core/calibration.h"
+#include "core/image.h"
+#include "core/rectify_map.h"
+#include "daemon/capture/synthetic_world.h"
+
+namespace stereod {
+
+/// The world of SyntheticWorld through two cameras as they come: focal lengths and principal points differ,
+/// the lenses distort, neither looks quite straight ahead, the right one exposes less, both are noisy. The
+/// same arguments give the same pictures on every run.
+class SyntheticScene {
+ public:
+  /// Frames `frames` ≥ 1 make a loop without seam. `size` from 64×48 up; focal lengths and so disparities
+  /// grow with it: at 640×480 these are 6…55 px. `baseline_m` > 0. Throws std::invalid_argument.
+  explicit SyntheticScene(Size size = {640, 480}, int frames = 24, double baseline_m = 0.06);
+
+  Size size() const { return calibration_.image; }
+  int frames() const { return frames_; }
+
+  /// Exact, not estimated: what a perfect calibration of these cameras would find.
+  const Calibration& calibration() const { return calibration_; }
+
+  /// What the cameras see in a frame ≥ 0, counted on past the end of the loop. Any number of threads at once.
+  GreyImage render_left(int frame) const { return render(left_, frame); }
+  GreyImage render_right(int frame) const { return render(right_, frame); }
+
+  /// The true disparity, in pixels and fractions, of each pixel of the rectified left image; NaN where the
+  /// left camera did not look.
+  Image<float> ground_truth(int frame) const;
+
+  /// 1 for each pixel of the rectified left image whose point the rectified right image shows too, else 0:
+  /// hidden behind something nearer or beyond the border.
+  Image<std::uint8_t> visible_in_right(int frame) const;
+
+ private:
+  struct Direction {
+    float x, y;  // of the ray (x, y, 1) in the rectified frame
+  };
+  struct View {
+    float origin_x;
+    float gain, black_level;  // the exposure
+    std::uint64_t noise_seed;
+    RectifyMap map;
+    Image<Direction> rays;  // of the camera's own, distorted pixels
+    Image<SceneHit> still;  // what never moves, seen along them
+  };
+
+  View make_view(const CameraCalibration& camera, double origin_x, float gain, float black_level,
+                 std::uint64_t noise_seed) const;
+  SceneRay rectified_ray(const View& view, float x, float y) const;
+  GreyImage render(const View& view, int frame) const;
+
+  int frames_;
+  Calibration calibration_;
+  SyntheticWorld world_;
+  View left_;
+  View right_;
+};
+
+}  // namespace stereod

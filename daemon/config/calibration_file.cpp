@@ -1,0 +1,202 @@
+#include "daemon/config/calibration_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "daemon/config/yaml_section.h"
+
+namespace stereod {
+
+namespace {
+
+// The ranges are wide enough for any camera and narrow enough to catch a number in the wrong place or unit.
+constexpr double kLongestFocal = 1e6;  // px
+
+double focal_length(YamlSection& section, const std::string& key) {
+  return section.required_number(key, 1, kLongestFocal);
+}
+
+double principal_point(YamlSection& section, const std::string& key) {
+  return section.required_number(key, -kLongestFocal, kLongestFocal);
+}
+
+RectifiedProjection read_projection(YamlSection section) {
+  RectifiedProjection result;
+  result.fx = focal_length(section, "fx");
+  result.fy = focal_length(section, "fy");
+  result.cx = principal_point(section, "cx");
+  result.cy = principal_point(section, "cy");
+  section.finish();
+  return result;
+}
+
+CameraCalibration read_camera(YamlSection section, Size image) {
+  CameraCalibration result;
+  CameraModel& camera = result.camera;
+  camera.image = image;
+  const std::string model = section.required_text("model");
+  if (model != "pinhole") section.fail("model", "found '" + model + "', allowed is 'pinhole'");
+  camera.fx = focal_length(section, "fx");
+  camera.fy = focal_length(section, "fy");
+  camera.cx = principal_point(section, "cx");
+  camera.cy = principal_point(section, "cy");
+  const std::vector<double> lens = section.required_numbers("distortion", 8);
+  camera.k1 = lens[0], camera.k2 = lens[1], camera.p1 = lens[2], camera.p2 = lens[3];
+  camera.k3 = lens[4], camera.k4 = lens[5], camera.k5 = lens[6], camera.k6 = lens[7];
+  const std::vector<double> rotation = section.required_numbers("rotation", 9);
+  std::copy(rotation.begin(), rotation.end(), result.rotation.m.begin());
+  result.projection = read_projection(section.required_section("projection"));
+  section.finish();
+  return result;
+}
+
+CalibrationQuality read_quality(YamlSection section) {
+  constexpr double kLargestError = 1e6;  // px
+  CalibrationQuality result;
+  result.pairs_used = section.required_integer("pairs_used", 0, 1'000'000);
+  result.rms_px = section.required_number("rms_px", 0, kLargestError);
+  result.epipolar_error_px = section.required_number("epipolar_error_px", 0, kLargestError);
+  section.finish();
+  return result;
+}
+
+// The shortest decimal number that reads back to the same bits.
+std::string digits(double number) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+
+void write_camera(std::ostream& out, const char* name, const CameraCalibration& c) {
+  const CameraModel& m = c.camera;
+  out << "\n" << name << ":\n";
+  out << "  model: pinhole\n";
+  out << "  fx: " << digits(m.fx) << "  # focal lengths, pixels\n";
+  out << "  fy: " << digits(m.fy) << "\n";
+  out << "  cx: " << digits(m.cx)
+      << "  # principal point, pixels; (0, 0) is the centre of the top left pixel\n";
+  out << "  cy: " << digits(m.cy) << "\n";
+  out << "  # k1, k2, p1, p2, k3, k4, k5, k6, as in OpenCV\n";
+  out << "  distortion: [" << digits(m.k1);
+  for (const double coefficient : {m.k2, m.p1, m.p2, m.k3, m.k4, m.k5, m.k6})
+    out << ", " << digits(coefficient);
+  out << "]\n";
+  out << "  # from directions of the camera to directions of the rectified camera, row by row\n";
+  out << "  rotation: [";
+  for (int row = 0; row < 3; ++row) {
+    out << digits(c.rotation(row, 0)) << ", " << digits(c.rotation(row, 1)) << ", "
+        << digits(c.rotation(row, 2));
+    out << (row < 2 ? ",\n             " : "]\n");
+  }
+  out << "  # the pinhole camera of the rectified image, pixels\n";
+  out << "  projection:\n";
+  out << "    fx: " << digits(c.projection.fx) << "\n    fy: " << digits(c.projection.fy) << "\n";
+  out << "    cx: " << digits(c.projection.cx) << "\n    cy: " << digits(c.projection.cy) << "\n";
+}
+
+// A file that goes away with the object, unless it was renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::filesystem::path& beside) : name_(beside.string() + ".XXXXXX") {
+    descriptor_ = ::mkostemp(name_.data(), O_CLOEXEC);
+    if (descriptor_ < 0) throw_errno("a temporary file cannot be made");
+  }
+  ~TemporaryFile() {
+    ::close(descriptor_);
+    if (!renamed_) ::unlink(name_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  void write(std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t written = ::write(descriptor_, text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) throw_errno("writing failed");
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    // The daemon reads it as another user. On the disk before the rename, or a power cut leaves an empty
+    // file.
+    if (::fchmod(descriptor_, 0644) != 0 || ::fsync(descriptor_) != 0) throw_errno("writing failed");
+  }
+
+  const std::string& name() const { return name_; }
+
+  void rename_to(const std::filesystem::path& file) {
+    if (::rename(name_.c_str(), file.c_str()) != 0)
+      throw_errno("renaming it to " + file.string() + " failed");
+    renamed_ = true;
+  }
+
+ private:
+  [[noreturn]] void throw_errno(const std::string& what) const {
+    throw FileError(name_ + ": the calibration was not written: " + what + ": " + std::strerror(errno));
+  }
+
+  std::string name_;
+  int descriptor_ = -1;
+  bool renamed_ = false;
+};
+
+}  // namespace
+
+Calibration read_calibration(const std::filesystem::path& file) {
+  YamlSection root(file, load_yaml_map(file));
+  constexpr int kWidest = 16384;
+  Calibration result;
+  root.text("id", "");  // known, but not believed
+  result.image.width = root.required_integer("image_width", 1, kWidest);
+  result.image.height = root.required_integer("image_height", 1, kWidest);
+  result.baseline_m = root.required_number("baseline_m", 1e-4, 100);
+  result.left = read_camera(root.required_section("left"), result.image);
+  result.right = read_camera(root.required_section("right"), result.image);
+  result.quality = read_quality(root.required_section("quality"));
+  root.finish();
+
+  if (const auto problem = problem_with(result)) throw FileError(file.string() + ": " + *problem);
+  result.id = calibration_id(result);
+  return result;
+}
+
+std::string calibration_text(const Calibration& calibration) {
+  std::ostringstream out;
+  out << "# Calibration of a stereo camera, written by stereo-calibrate and read by stereod.\n";
+  out << "# Coordinates: x to the right, y down, z forward.\n";
+  out << "id: '" << calibration_id(calibration)
+      << "'  # of the numbers below; recomputed when the file is read\n";
+  out << "image_width: " << calibration.image.width
+      << "  # of the cameras' images and of the rectified ones, pixels\n";
+  out << "image_height: " << calibration.image.height << "\n";
+  out << "baseline_m: " << digits(calibration.baseline_m)
+      << "  # from the left camera to the right one, metres\n";
+  write_camera(out, "left", calibration.left);
+  write_camera(out, "right", calibration.right);
+  const CalibrationQuality& quality = calibration.quality;
+  out << "\nquality:\n";
+  out << "  pairs_used: " << quality.pairs_used << "\n";
+  out << "  rms_px: " << digits(quality.rms_px) << "  # reprojection error, pixels\n";
+  out << "  epipolar_error_px: " << digits(quality.epipolar_error_px)
+      << "  # rows a point is apart in the rectified images, mean, pixels\n";
+  return out.str();
+}
+
+void write_calibration(const std::filesystem::path& file, const Calibration& calibration) {
+  if (const auto problem = problem_with(calibration)) {
+    throw FileError(file.string() + ": the calibration was not written: " + *problem);
+  }
+  TemporaryFile temporary(file);
+  temporary.write(calibration_text(calibration));
+  read_calibration(temporary.name());  // what cannot be read back replaces nothing
+  temporary.rename_to(file);
+}
+
+}  // namespace stereod

@@ -1,0 +1,104 @@
+#include "daemon/imagefile/pfm_file.h"
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/config/file_error.h"
+#include "daemon/imagefile/decoded_picture.h"
+#include "daemon/imagefile/file_bytes.h"
+
+namespace stereod {
+
+namespace {
+
+constexpr bool kLittleEndianHost = std::endian::native == std::endian::little;
+
+std::uint32_t swap_bytes(std::uint32_t value) {
+  return value >> 24 | (value >> 8 & 0xff00) | (value << 8 & 0xff0000) | value << 24;
+}
+
+/// The header's next word; one white-space character after it belongs to it.
+std::string_view next_word(std::span<const std::uint8_t> bytes, std::size_t& next) {
+  const auto is_space = [&](std::size_t i) {
+    return bytes[i] == ' ' || (bytes[i] >= '\t' && bytes[i] <= '\r');
+  };
+  while (next < bytes.size() && is_space(next)) ++next;
+  const std::size_t first = next;
+  while (next < bytes.size() && !is_space(next)) ++next;
+  const std::size_t end = next;
+  if (next < bytes.size()) ++next;
+  return {reinterpret_cast<const char*>(bytes.data()) + first, end - first};
+}
+
+template <typename Number>
+Number number_from(const std::string& file, std::string_view word, const char* what) {
+  Number value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) {
+    throw FileError(file + ": the PFM file's " + what + " is not a number that is allowed there");
+  }
+  return value;
+}
+
+}  // namespace
+
+void write_pfm(const std::filesystem::path& path, ImageView<const float> picture) {
+  check_picture_size(path.string(), picture.width(), picture.height());
+  const std::string header =
+      "Pf\n" + std::to_string(picture.width()) + " " + std::to_string(picture.height()) + "\n-1.0\n";
+  std::vector<std::uint8_t> bytes(header.begin(), header.end());
+  bytes.reserve(bytes.size() +
+                4 * static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(picture.height()));
+  for (int y = picture.height() - 1; y >= 0; --y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const auto bits = std::bit_cast<std::uint32_t>(picture.at(x, y));
+      for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(bits >> shift));
+    }
+  }
+  write_file_bytes(path, bytes);
+}
+
+Image<float> read_pfm(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const std::vector<std::uint8_t> bytes = read_file_bytes(path);
+  std::size_t next = 0;
+  const std::string_view magic = next_word(bytes, next);
+  if (magic == "PF") throw FileError(file + ": is a colour PFM; a grey one (Pf) is needed");
+  if (magic != "Pf") throw FileError(file + ": is no PFM; the file must begin with Pf");
+  const int width = number_from<int>(file, next_word(bytes, next), "width");
+  const int height = number_from<int>(file, next_word(bytes, next), "height");
+  check_picture_size(file, width, height);
+  const auto scale = number_from<double>(file, next_word(bytes, next), "scale");
+  if (!std::isfinite(scale) || scale == 0) {
+    throw FileError(file + ": the PFM file's scale is not a number that is allowed there");
+  }
+
+  const std::size_t row_bytes = 4 * static_cast<std::size_t>(width);
+  if (bytes.size() - next < row_bytes * static_cast<std::size_t>(height)) {
+    throw FileError(file + ": the PFM file is truncated; it ends before its picture does");
+  }
+  const bool swap = (scale < 0) != kLittleEndianHost;
+  Image<float> picture(width, height);
+  for (int y = height - 1; y >= 0; --y, next += row_bytes) {
+    std::memcpy(picture.row(y), &bytes[next], row_bytes);
+    if (!swap) continue;
+    for (int x = 0; x < width; ++x) {
+      picture.at(x, y) = std::bit_cast<float>(swap_bytes(std::bit_cast<std::uint32_t>(picture.at(x, y))));
+    }
+  }
+  return picture;
+}
+
+bool is_pfm(const std::filesystem::path& path) {
+  const std::vector<std::uint8_t> bytes = read_file_bytes(path);
+  return bytes.size() >= 2 && bytes[0] == 'P' && (bytes[1] == 'f' || bytes[1] == 'F');
+}
+
+}  // namespace stereod

@@ -1,0 +1,26 @@
+// PNG in memory: what libpng does, without its long jumps.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "daemon/imagefile/decoded_picture.h"
+
+namespace stereod {
+
+bool looks_like_png(std::span<const std::uint8_t> bytes);
+
+/// Any PNG: grey, colour or palette, 1 to 16 bits, interlaced or not. Grey keeps its depth (max_value says
+/// which), a palette becomes colour, transparency and gamma are ignored. Throws FileError, its sentence
+/// beginning with `file`.
+DecodedPicture decode_png(const std::string& file, std::span<const std::uint8_t> bytes);
+
+/// The PNG file of a picture. Throws FileError if it is empty or has a side longer than kLargestSide.
+std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const std::uint8_t> grey);
+std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const Rgb> color);
+std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const std::uint16_t> grey);
+
+}  // namespace stereod

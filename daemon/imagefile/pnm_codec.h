@@ -1,0 +1,19 @@
+// PGM and PPM files (netpbm's formats P2, P3, P5 and P6).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "daemon/imagefile/decoded_picture.h"
+
+namespace stereod {
+
+bool looks_like_pnm(std::span<const std::uint8_t> bytes);
+
+/// The first picture of the file: plain or raw, grey or colour, comments, maxval 1…65535. As the format
+/// demands, white space follows every number of a plain picture, the last one too: without it a truncated
+/// number would pass for a smaller one. Throws FileError, its sentence beginning with `file`.
+DecodedPicture decode_pnm(const std::string& file, std::span<const std::uint8_t> bytes);
+
+}  // namespace stereod

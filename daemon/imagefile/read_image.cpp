@@ -1,0 +1,106 @@
+#include "daemon/imagefile/read_image.h"
+
+#include <new>
+#include <string>
+#include <vector>
+
+#include "daemon/config/file_error.h"
+#include "daemon/imagefile/decoded_picture.h"
+#include "daemon/imagefile/file_bytes.h"
+#include "daemon/imagefile/jpeg_codec.h"
+#include "daemon/imagefile/png_codec.h"
+#include "daemon/imagefile/pnm_codec.h"
+
+namespace stereod {
+
+namespace {
+
+std::string printable_start(const std::vector<std::uint8_t>& bytes) {
+  constexpr char kHex[] = "0123456789abcdef";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size() && i < 4; ++i) {
+    if (i > 0) text += ' ';
+    text += kHex[bytes[i] >> 4];
+    text += kHex[bytes[i] & 15];
+  }
+  return text;
+}
+
+DecodedPicture decode(const std::filesystem::path& path, JpegChannels jpeg_channels) {
+  const std::string file = path.string();
+  try {
+    const std::vector<std::uint8_t> bytes = read_file_bytes(path);
+    if (looks_like_png(bytes)) return decode_png(file, bytes);
+    if (looks_like_jpeg(bytes)) return decode_jpeg(file, bytes, jpeg_channels);
+    if (looks_like_pnm(bytes)) return decode_pnm(file, bytes);
+    throw FileError(file + ": is no picture that is known here (it begins with the bytes " +
+                    printable_start(bytes) + "); PNG, JPEG, PGM and PPM are");
+  } catch (const std::bad_alloc&) {
+    throw FileError(file + ": there is not enough memory for a picture of its size");
+  }
+}
+
+/// From 0…max_value to 0…255, rounded.
+std::uint8_t to_8_bit(int value, int max_value) {
+  return static_cast<std::uint8_t>((value * 255 + max_value / 2) / max_value);
+}
+
+Rgb color_at(const DecodedPicture& picture, std::size_t pixel) {
+  if (picture.channels == 1) {
+    const std::uint8_t grey = to_8_bit(picture.sample(pixel), picture.max_value);
+    return {grey, grey, grey};
+  }
+  return {to_8_bit(picture.sample(3 * pixel), picture.max_value),
+          to_8_bit(picture.sample(3 * pixel + 1), picture.max_value),
+          to_8_bit(picture.sample(3 * pixel + 2), picture.max_value)};
+}
+
+/// An image whose pixel number n, counted from the top left, is pixel_at(n).
+template <typename Pixel, typename PixelAt>
+Image<Pixel> fill_image(Size size, const PixelAt& pixel_at) {
+  Image<Pixel> image(size);
+  std::size_t pixel = 0;
+  for (int y = 0; y < size.height; ++y) {
+    for (Pixel *to = image.row(y), *end = to + size.width; to != end; ++to) *to = pixel_at(pixel++);
+  }
+  return image;
+}
+
+}  // namespace
+
+void check_picture_size(const std::string& file, long long width, long long height) {
+  if (width >= 1 && width <= kLargestSide && height >= 1 && height <= kLargestSide) return;
+  throw FileError(file + ": the picture has " + std::to_string(width) + "×" + std::to_string(height) +
+                  " pixels; 1 to " + std::to_string(kLargestSide) + " a side are allowed");
+}
+
+GreyImage read_grey(const std::filesystem::path& path) {
+  const DecodedPicture picture = decode(path, JpegChannels::kLuma);
+  if (picture.channels == 1) {
+    return fill_image<std::uint8_t>(
+        picture.size, [&](std::size_t pixel) { return to_8_bit(picture.sample(pixel), picture.max_value); });
+  }
+  return fill_image<std::uint8_t>(picture.size,
+                                  [&](std::size_t pixel) { return grey_of(color_at(picture, pixel)); });
+}
+
+ColorImage read_color(const std::filesystem::path& path) {
+  const DecodedPicture picture = decode(path, JpegChannels::kRgb);
+  return fill_image<Rgb>(picture.size, [&](std::size_t pixel) { return color_at(picture, pixel); });
+}
+
+Image<std::uint16_t> read_grey16(const std::filesystem::path& path) {
+  const DecodedPicture picture = decode(path, JpegChannels::kLuma);
+  return fill_image<std::uint16_t>(picture.size, [&](std::size_t pixel) {
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    const int value = picture.sample(pixel * channels);
+    for (std::size_t other = 1; other < channels; ++other) {
+      if (picture.sample(pixel * channels + other) != value) {
+        throw FileError(path.string() + ": is a colour picture; a grey one is needed");
+      }
+    }
+    return static_cast<std::uint16_t>(value);
+  });
+}
+
+}  // namespace stereod

@@ -1,0 +1,128 @@
+// stereod: the daemon.
+#include <signal.h>
+#include <spdlog/spdlog.h>
+#include <time.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "daemon/config/config.h"
+#include "daemon/config/file_error.h"
+#include "daemon/pipeline/clocks.h"
+#include "daemon/pipeline/pipeline.h"
+#include "daemon/publish/lcm_bus.h"
+#include "daemon/service/log.h"
+#include "daemon/service/status_reporter.h"
+#include "daemon/service/version.h"
+
+namespace stereod {
+namespace {
+
+constexpr int kExitRetry = 1;    // something outside may get better: systemd may start it again
+constexpr int kExitConfig = 78;  // sysexits(3) EX_CONFIG: it will never work like this
+
+// Signals are not handled but waited for; every thread inherits the mask.
+sigset_t blocked_stop_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  return signals;
+}
+
+// Waits until a signal comes or the time has come; the signal's number, or 0.
+int wait_for_signal(const sigset_t& signals, std::int64_t until_ns) {
+  const std::int64_t left_ns = until_ns - monotonic_ns();
+  const std::int64_t wait_ns = left_ns > 0 ? left_ns : 0;
+  const timespec wait{static_cast<time_t>(wait_ns / 1'000'000'000), static_cast<long>(wait_ns % 1'000'000'000)};
+  const int signal = sigtimedwait(&signals, nullptr, &wait);
+  return signal > 0 ? signal : 0;
+}
+
+void serve(Pipeline& pipeline, MessageBus& bus, const sigset_t& signals) {
+  constexpr std::int64_t kReportPeriod = 1'000'000'000;
+  constexpr std::int64_t kLook = 50'000'000;  // how soon the end of a recording is noticed
+  StatusReporter reporter(pipeline, bus);
+  std::int64_t next_report = monotonic_ns();
+  while (true) {
+    const std::int64_t now = monotonic_ns();
+    if (now >= next_report) {
+      reporter.report();
+      next_report = std::max(next_report + kReportPeriod, now);
+    }
+    if (pipeline.finished()) {
+      reporter.report();
+      spdlog::info("the recording has played to its end; stopping");
+      return;
+    }
+    if (const int signal = wait_for_signal(signals, std::min(next_report, now + kLook))) {
+      spdlog::info("{} came; stopping", signal == SIGINT ? "SIGINT" : "SIGTERM");
+      return;
+    }
+  }
+}
+
+void run(const Config& config) {
+  const sigset_t signals = blocked_stop_signals();
+  LcmBus bus(config.lcm.url);
+  Pipeline pipeline(config, open_rig(config), bus);
+  const Size size = pipeline.rig().left->frame_size();
+  spdlog::info("stereod {}: {} at {}×{}, matcher {}, channels {}_*", kVersion, name_of(config.cameras.source),
+               size.width, size.height, pipeline.matcher_description(), config.lcm.prefix);
+  serve(pipeline, bus, signals);
+  pipeline.stop();
+}
+
+// Finds what only shows when everything is put together, without sending anything.
+void check(const Config& config) {
+  checked_lcm_url(config.lcm.url);
+  LcmBus nowhere("memq://");
+  const Pipeline pipeline(config, open_rig(config), nowhere);
+}
+
+int complain(const std::string& sentence, int status) {
+  spdlog::error("{}", sentence);
+  return status;
+}
+
+int main_with(int argc, char** argv) {
+  CLI::App app("stereod: rectified disparity from two cameras, published on LCM.");
+  std::string config_file = "/etc/stereod/stereod.yaml";
+  bool check_only = false;
+  app.add_option("--config", config_file, "the configuration")->capture_default_str();
+  app.add_flag("--check-config", check_only, "say whether the configuration can work, and end");
+  app.set_version_flag("--version", std::string("stereod ") + kVersion);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kExitConfig;
+  }
+  set_up_log("info");
+  try {
+    const Config config = read_config(config_file);
+    set_up_log(config.log_level);
+    if (check_only) {
+      check(config);
+      std::printf("%s: nothing wrong with it\n", config_file.c_str());
+    } else {
+      run(config);
+    }
+    return 0;
+  } catch (const BusError& error) {
+    return complain(error.what(), error.permanent() ? kExitConfig : kExitRetry);
+  } catch (const FileError& error) {
+    return complain(error.what(), kExitConfig);
+  } catch (const std::invalid_argument& error) {
+    return complain(config_file + ": " + error.what(), kExitConfig);
+  } catch (const std::exception& error) {
+    return complain(std::string("stopped by an unexpected error: ") + error.what(), kExitRetry);
+  }
+}
+
+}  // namespace
+}  // namespace stereod
+
+int main(int argc, char** argv) { return stereod::main_with(argc, argv); }

@@ -1,0 +1,46 @@
+// One worker: from two buffers of a camera to final disparity rows.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/match/band_matcher.h"
+#include "core/rectify_map.h"
+#include "daemon/pipeline/frame_publisher.h"
+#include "daemon/pipeline/pairing_desk.h"
+
+namespace stereod {
+
+/// Rectifies, matches and hands over one band at a time. Owns its matcher; shares nothing with other workers.
+class BandWorker {
+ public:
+  BandWorker(const MatcherOptions& options, Size size);
+
+  /// What a frame's workers have in common.
+  struct Job {
+    const LeasedPair& pair;
+    const RectifyMap& left_map;
+    const RectifyMap& right_map;
+    OutputFrame& output;
+    FramePublisher& publisher;
+    bool announce;  ///< rows are final once they are matched; false if a filter waits for the whole frame
+  };
+
+  /// Does the rows of `blocks`. Rectification goes a few rows ahead of matching, so that the rows are still in the
+  /// cache when they are matched.
+  void run(const Job& job, RowRange blocks) noexcept;
+
+  /// Time the last run() spent, ns.
+  std::int64_t rectify_ns() const { return rectify_ns_; }
+  std::int64_t match_ns() const { return match_ns_; }
+
+ private:
+  void rectify_rows(const Job& job, RowRange rows) noexcept;
+  void match_rows(const Job& job, RowRange rows) noexcept;
+
+  std::unique_ptr<BandMatcher> matcher_;
+  std::int64_t rectify_ns_ = 0, match_ns_ = 0;
+  int next_block_ = 0;  // the next one to be announced
+};
+
+}  // namespace stereod

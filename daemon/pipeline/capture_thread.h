@@ -1,0 +1,42 @@
+// One camera's thread.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+#include "core/pairing.h"
+#include "daemon/capture/frame_source.h"
+#include "daemon/pipeline/pairing_desk.h"
+
+namespace stereod {
+
+/// Carries frames from a source to the desk until the source finishes or is stopped.
+class CaptureThread {
+ public:
+  /// Starts the thread. Source and desk outlive it.
+  CaptureThread(Side side, FrameSource& source, PairingDesk& desk);
+  ~CaptureThread();
+  CaptureThread(const CaptureThread&) = delete;
+  CaptureThread& operator=(const CaptureThread&) = delete;
+
+  /// Stops the source and ends the thread.
+  void stop() noexcept;
+
+  std::int64_t frames() const noexcept { return frames_; }
+  std::int64_t sequence_gaps() const noexcept { return sequence_gaps_; }
+  SourceState state() const noexcept { return source_.state(); }
+
+ private:
+  void run() noexcept;
+
+  Side side_;
+  FrameSource& source_;
+  PairingDesk& desk_;
+  std::atomic<bool> stopping_{false};
+  std::atomic<std::int64_t> frames_{0};
+  std::atomic<std::int64_t> sequence_gaps_{0};
+  std::thread thread_;
+};
+
+}  // namespace stereod

@@ -1,0 +1,214 @@
+#include "daemon/pipeline/frame_publisher.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "daemon/pipeline/clocks.h"
+
+namespace stereod {
+namespace {
+
+constexpr int kLargestDatagram = 65'499;   // LCM sends more in fragments, of which one lost loses all
+constexpr int kHeaderAllowance = 256;      // channel name and the message's own fields
+constexpr std::int64_t kBurstBytes = 96'000;  // fits a default socket buffer (212,992 B with its overhead)
+
+int block_bytes(const WireFormat& format, Size size) {
+  return format.rows_per_message * size.width * format.bytes_per_value();
+}
+
+std::string size_problem(const WireFormat& format, Size size) {
+  const int row_bytes = size.width * format.bytes_per_value();
+  return "lcm.rows_per_message: found " + std::to_string(format.rows_per_message) + ", but rows of " +
+         std::to_string(row_bytes) + " bytes are sent and a message holds " +
+         std::to_string(kLargestDatagram - kHeaderAllowance) + ", so allowed are 1 to " +
+         std::to_string((kLargestDatagram - kHeaderAllowance) / row_bytes);
+}
+
+}  // namespace
+
+int WireFormat::bytes_per_value() const {
+  return (min_disparity + disparities - 1) * units_per_pixel < 0xFF ? 1 : 2;
+}
+
+FramePublisher::FramePublisher(MessageBus& bus, const WireFormat& format, Size size)
+    : bus_(bus),
+      format_(format),
+      size_(size),
+      blocks_((size.height + format.rows_per_message - 1) / format.rows_per_message),
+      rows_channel_(format.prefix + "_DISPARITY"),
+      frame_channel_(format.prefix + "_FRAME"),
+      frames_{OutputFrame(size), OutputFrame(size)},
+      events_(static_cast<std::size_t>(kFrames) * (static_cast<std::size_t>(blocks_) + 1)),
+      encoder_(kLargestDatagram) {
+  if (block_bytes(format, size) > kLargestDatagram - kHeaderAllowance) {
+    throw std::invalid_argument(size_problem(format, size));
+  }
+  for (OutputFrame& frame : frames_) free_.push_back(&frame);
+  rows_message_.data.reserve(static_cast<std::size_t>(block_bytes(format, size)));
+  rows_message_.width = size.width;
+  rows_message_.height = size.height;
+  rows_message_.min_disparity = format.min_disparity;
+  rows_message_.disparities = format.disparities;
+  rows_message_.scale = 1.0f / static_cast<float>(format.units_per_pixel);
+  rows_message_.bytes_per_value = static_cast<std::int8_t>(format.bytes_per_value());
+  rows_message_.invalid = format.invalid_value();
+  frame_message_.width = size.width;
+  frame_message_.height = size.height;
+  frame_message_.rows = size.height;
+  frame_message_.messages = blocks_;
+  thread_ = std::thread([this] { run(); });
+}
+
+FramePublisher::~FramePublisher() { stop(); }
+
+RowRange FramePublisher::block_rows(int block) const {
+  const int first = block * format_.rows_per_message;
+  return {first, std::min(first + format_.rows_per_message, size_.height)};
+}
+
+OutputFrame* FramePublisher::wait_free() noexcept {
+  std::unique_lock lock(mutex_);
+  frame_freed_.wait(lock, [this] { return stopping_ || !free_.empty(); });
+  if (stopping_) return nullptr;
+  OutputFrame* frame = free_.back();
+  free_.pop_back();
+  return frame;
+}
+
+void FramePublisher::block_final(OutputFrame& frame, int block) noexcept { enqueue({&frame, block}); }
+void FramePublisher::frame_final(OutputFrame& frame) noexcept { enqueue({&frame, kFrameFinal}); }
+
+void FramePublisher::enqueue(Event event) noexcept {
+  const std::lock_guard lock(mutex_);
+  events_[(first_event_ + event_count_++) % events_.size()] = event;
+  event_added_.notify_one();
+}
+
+void FramePublisher::drain() noexcept {
+  std::unique_lock lock(mutex_);
+  all_sent_.wait(lock, [this] { return stopping_ || (event_count_ == 0 && !sending_); });
+}
+
+void FramePublisher::stop() noexcept {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    frame_freed_.notify_all();
+    event_added_.notify_all();
+    all_sent_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+PublisherFigures FramePublisher::take_figures() noexcept {
+  const std::lock_guard lock(mutex_);
+  const PublisherFigures taken = figures_;
+  figures_.latency_ms.clear();
+  figures_.match_ms.clear();
+  figures_.skew_ms.clear();
+  figures_.skew_magnitude_ms.clear();
+  return taken;
+}
+
+void FramePublisher::run() noexcept {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    event_added_.wait(lock, [this] { return stopping_ || event_count_ > 0; });
+    if (stopping_) return;
+    const Event event = events_[first_event_];
+    first_event_ = (first_event_ + 1) % events_.size();
+    --event_count_;
+    sending_ = true;
+    lock.unlock();
+    if (event.block == kFrameFinal) {
+      send_frame_message(*event.frame);
+    } else {
+      send_block(*event.frame, event.block);
+    }
+    lock.lock();
+    sending_ = false;
+    if (event.block == kFrameFinal) {
+      free_.push_back(event.frame);
+      frame_freed_.notify_one();
+    }
+    if (event_count_ == 0) all_sent_.notify_all();
+  }
+}
+
+void FramePublisher::send_block(const OutputFrame& frame, int block) noexcept {
+  const RowRange rows = block_rows(block);
+  const int width = size_.width;
+  rows_message_.utime = frame.facts.utime;
+  rows_message_.frame = frame.facts.frame;
+  rows_message_.first_row = rows.first;
+  rows_message_.row_count = rows.count();
+  rows_message_.size = rows.count() * width * format_.bytes_per_value();
+  rows_message_.data.resize(static_cast<std::size_t>(rows_message_.size));
+  std::uint8_t* out = rows_message_.data.data();
+  std::int64_t valid = 0;
+  for (int y = rows.first; y < rows.end; ++y) {
+    const std::int16_t* in = frame.disparity.row(y);
+    for (int x = 0; x < width; ++x) valid += in[x] != kInvalidDisparity ? 1 : 0;
+    if (format_.bytes_per_value() == 1) {  // −1 becomes 255
+      for (int x = 0; x < width; ++x) out[x] = static_cast<std::uint8_t>(in[x]);
+      out += width;
+    } else {  // −1 becomes 65535
+      for (int x = 0; x < width; ++x) {
+        const auto value = static_cast<std::uint16_t>(in[x]);
+        out[2 * x] = static_cast<std::uint8_t>(value);
+        out[2 * x + 1] = static_cast<std::uint8_t>(value >> 8);
+      }
+      out += 2 * width;
+    }
+  }
+  valid_pixels_ += valid;
+  keep_pace(static_cast<std::size_t>(rows_message_.size));
+  if (!encoder_.publish(bus_, rows_channel_.c_str(), rows_message_)) ++refused_;
+}
+
+void FramePublisher::send_frame_message(const OutputFrame& frame) noexcept {
+  const FrameFacts& facts = frame.facts;
+  const std::int64_t captured_ns = std::max(facts.left_ns, facts.right_ns);
+  const std::int64_t sent_ns = monotonic_ns();
+  const auto us = [](std::int64_t ns) { return static_cast<std::int32_t>(ns / 1000); };
+  const double pixels = static_cast<double>(size_.width) * size_.height;
+  frame_message_.utime = facts.utime;
+  frame_message_.frame = facts.frame;
+  frame_message_.valid_fraction = static_cast<float>(static_cast<double>(valid_pixels_) / pixels);
+  frame_message_.left_sequence = facts.left_sequence;
+  frame_message_.right_sequence = facts.right_sequence;
+  frame_message_.skew_us = us(facts.right_ns - facts.left_ns);
+  frame_message_.capture_to_start_us = us(facts.started_ns - captured_ns);
+  frame_message_.rectify_us = us(facts.rectify_ns);
+  frame_message_.match_us = us(facts.match_ns);
+  frame_message_.filter_us = us(facts.filter_ns);
+  frame_message_.publish_us = us(sent_ns - facts.matched_ns);
+  frame_message_.latency_us = us(sent_ns - captured_ns);
+  if (!encoder_.publish(bus_, frame_channel_.c_str(), frame_message_)) ++refused_;
+
+  const std::lock_guard lock(mutex_);
+  ++figures_.frames;
+  figures_.messages_refused = refused_;
+  figures_.valid_fraction = frame_message_.valid_fraction;
+  figures_.latency_ms.add(frame_message_.latency_us / 1e3);
+  figures_.match_ms.add((frame_message_.match_us + frame_message_.filter_us) / 1e3);
+  figures_.skew_ms.add(frame_message_.skew_us / 1e3);
+  figures_.skew_magnitude_ms.add(std::abs(frame_message_.skew_us) / 1e3);
+  valid_pixels_ = 0;
+}
+
+// Lets a burst through, then no more bytes than the spread allows.
+void FramePublisher::keep_pace(std::size_t bytes) noexcept {
+  if (format_.spread_s <= 0) return;
+  const double frame_bytes = static_cast<double>(size_.width) * size_.height * format_.bytes_per_value();
+  const double ns_per_byte = format_.spread_s * 1e9 / frame_bytes;
+  const std::int64_t now = monotonic_ns();
+  const auto burst_ns = static_cast<std::int64_t>(ns_per_byte * static_cast<double>(kBurstBytes));
+  paced_until_ns_ =
+      std::max(paced_until_ns_, now - burst_ns) + static_cast<std::int64_t>(ns_per_byte * static_cast<double>(bytes));
+  if (paced_until_ns_ > now) std::this_thread::sleep_for(std::chrono::nanoseconds(paced_until_ns_ - now));
+}
+
+}  // namespace stereod

@@ -1,0 +1,112 @@
+// The thread that brings disparity rows to the network, at a pace receivers can follow.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "daemon/pipeline/output_frame.h"
+#include "daemon/pipeline/recent_values.h"
+#include "daemon/publish/message_bus.h"
+#include "daemon/publish/message_encoder.h"
+#include "stereod/disparity_rows_t.hpp"
+#include "stereod/frame_t.hpp"
+
+namespace stereod {
+
+/// How disparity goes onto the wire.
+struct WireFormat {
+  std::string prefix;        ///< of the channels
+  int rows_per_message = 1;
+  int min_disparity = 0;
+  int disparities = 1;
+  int units_per_pixel = 1;
+  double spread_s = 0;       ///< time over which one frame's rows are spread out; 0: sent as they come
+
+  /// 1 if every value and the invalid one fit in a byte, else 2.
+  int bytes_per_value() const;
+  int invalid_value() const { return bytes_per_value() == 1 ? 0xFF : 0xFFFF; }
+};
+
+/// Figures about what was published. The recent ones are since the last take_figures().
+struct PublisherFigures {
+  std::int64_t frames = 0;
+  std::int64_t messages_refused = 0;
+  double valid_fraction = 0;  ///< of the latest frame
+  RecentValues latency_ms, match_ms, skew_ms, skew_magnitude_ms;
+};
+
+/// Two frames are in it at most: one that workers fill and one that is being sent. Workers announce blocks of
+/// rows as they become final; the thread sends each at once, unless that is faster than the pace: then it waits, so
+/// that a burst does not overrun the receivers' socket buffers. Workers never wait for the network.
+class FramePublisher {
+ public:
+  /// Throws std::invalid_argument with a sentence if a block of rows does not fit in one message.
+  FramePublisher(MessageBus& bus, const WireFormat& format, Size size);
+  ~FramePublisher();
+  FramePublisher(const FramePublisher&) = delete;
+  FramePublisher& operator=(const FramePublisher&) = delete;
+
+  /// Rows are announced by blocks: block b is the rows [b·rows_per_message, …).
+  int blocks() const { return blocks_; }
+  RowRange block_rows(int block) const;
+
+  /// A frame to fill; waits until one is free. Null once stop() was called.
+  OutputFrame* wait_free() noexcept;
+  /// A block's rows are final. Any thread.
+  void block_final(OutputFrame& frame, int block) noexcept;
+  /// Every block was announced and frame.facts are complete; the frame belongs to the publisher from here on.
+  void frame_final(OutputFrame& frame) noexcept;
+
+  /// Waits until everything announced is sent.
+  void drain() noexcept;
+  /// Ends the thread; what was not sent is dropped.
+  void stop() noexcept;
+
+  PublisherFigures take_figures() noexcept;
+
+ private:
+  struct Event {
+    OutputFrame* frame;
+    int block;  // kFrameFinal: the frame is complete
+  };
+  static constexpr int kFrameFinal = -1;
+  static constexpr int kFrames = 2;
+
+  void enqueue(Event event) noexcept;
+  void run() noexcept;
+  void send_block(const OutputFrame& frame, int block) noexcept;
+  void send_frame_message(const OutputFrame& frame) noexcept;
+  void keep_pace(std::size_t bytes) noexcept;
+
+  MessageBus& bus_;
+  const WireFormat format_;
+  const Size size_;
+  const int blocks_;
+  const std::string rows_channel_, frame_channel_;
+
+  std::mutex mutex_;
+  std::condition_variable frame_freed_, event_added_, all_sent_;
+  OutputFrame frames_[kFrames];
+  std::vector<OutputFrame*> free_;
+  std::vector<Event> events_;  // a ring with room for all blocks of all frames
+  std::size_t first_event_ = 0, event_count_ = 0;
+  bool sending_ = false;
+  bool stopping_ = false;
+  PublisherFigures figures_;
+
+  // The publisher thread's own.
+  MessageEncoder encoder_;
+  disparity_rows_t rows_message_{};
+  frame_t frame_message_{};
+  std::int64_t valid_pixels_ = 0;
+  std::int64_t refused_ = 0;
+  std::int64_t paced_until_ns_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace stereod

@@ -1,0 +1,46 @@
+// Where the capture threads' frames meet.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+
+#include "core/pairing.h"
+#include "daemon/capture/frame_source.h"
+
+namespace stereod {
+
+using LeasedPair = FramePair<FrameLease>;
+
+/// The pairing policy behind a lock: capture threads bring frames, one thread takes pairs. Nothing waits here
+/// but the taker.
+class PairingDesk {
+ public:
+  explicit PairingDesk(std::int64_t tolerance_ns) : pairing_(tolerance_ns) {}
+
+  /// Takes a frame of one camera. Frames it drops are given back at once.
+  void add(Side side, FrameLease frame) noexcept;
+
+  /// One camera will bring no more frames; after both have said so, the desk is closed.
+  void camera_finished() noexcept;
+
+  /// No frame is taken any more.
+  void close() noexcept;
+
+  /// The newest pair; waits for one. Nothing once the desk is closed and the last pair taken.
+  std::optional<LeasedPair> wait_pair() noexcept;
+
+  /// Gives back every frame that still lies here.
+  void clear() noexcept;
+
+  PairingCounts counts() const noexcept;
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  Pairing<FrameLease> pairing_;
+  int cameras_finished_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace stereod

@@ -1,0 +1,134 @@
+#include "daemon/pipeline/pipeline.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/match/isa.h"
+#include "daemon/pipeline/clocks.h"
+
+namespace stereod {
+namespace {
+
+WireFormat wire_format(const Config& config) {
+  WireFormat format;
+  format.prefix = config.lcm.prefix;
+  format.rows_per_message = config.lcm.rows_per_message;
+  format.min_disparity = config.matcher.min_disparity;
+  format.disparities = config.matcher.disparities;
+  format.units_per_pixel = config.matcher.units_per_pixel();
+  const double fps = config.cameras.fps > 0 ? config.cameras.fps : 30;
+  format.spread_s = config.lcm.spread / fps;
+  return format;
+}
+
+std::string describe(const Config& config) {
+  std::string text = "block " + std::string(name_of(config.matcher.implementation));
+  if (config.matcher.implementation == Implementation::kSimd) {
+    text += " " + std::string(name_of(resolve_isa(config.matcher.isa)));
+  }
+  const int workers = config.worker_count();
+  return text + ", " + std::to_string(workers) + (workers == 1 ? " worker" : " workers");
+}
+
+SourceLayout layout_of(const LumaView& luma) { return {luma.size, luma.row_stride, luma.pixel_stride}; }
+
+}  // namespace
+
+Pipeline::Pipeline(const Config& config, Rig rig, MessageBus& bus)
+    : config_(config),
+      rig_(std::move(rig)),
+      size_(rig_.left->frame_size()),
+      matcher_description_(describe(config)),
+      publisher_(bus, wire_format(config), size_),
+      desk_(config.cameras.pairing_tolerance_ns()),
+      pool_(config.worker_count()) {
+  for (int worker = 0; worker < pool_.workers(); ++worker) workers_.emplace_back(config.matcher, size_);
+  if (config.matcher.speckle_size > 0) speckle_filter_.emplace(size_);
+  left_thread_.emplace(Side::kLeft, *rig_.left, desk_);
+  right_thread_.emplace(Side::kRight, *rig_.right, desk_);
+  matching_thread_ = std::thread([this] { matching_thread(); });
+}
+
+Pipeline::~Pipeline() { stop(); }
+
+void Pipeline::stop() noexcept {
+  stopping_ = true;
+  left_thread_->stop();
+  right_thread_->stop();
+  desk_.close();
+  publisher_.stop();
+  if (matching_thread_.joinable()) matching_thread_.join();
+  desk_.clear();  // the leases end before their sources do
+}
+
+PipelineFigures Pipeline::take_figures() noexcept {
+  const auto camera = [](const CaptureThread& thread) {
+    return CameraFigures{thread.state(), thread.frames(), thread.sequence_gaps()};
+  };
+  return {camera(*left_thread_), camera(*right_thread_), desk_.counts(), publisher_.take_figures()};
+}
+
+void Pipeline::matching_thread() noexcept {
+  while (OutputFrame* output = publisher_.wait_free()) {
+    std::optional<LeasedPair> pair = desk_.wait_pair();
+    if (!pair || stopping_) break;
+    match_pair(*pair, *output);
+  }
+  publisher_.drain();
+  finished_ = true;
+}
+
+void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
+  FrameFacts& facts = output.facts;
+  facts.frame = next_frame_++;
+  facts.utime = wall_us_of(pair.left_ns);
+  facts.left_ns = pair.left_ns;
+  facts.right_ns = pair.right_ns;
+  facts.left_sequence = pair.left.frame().sequence;
+  facts.right_sequence = pair.right.frame().sequence;
+  prepare_maps(pair);
+  facts.started_ns = monotonic_ns();
+  run_workers(pair, output);
+  facts.filter_ns = 0;
+  if (speckle_filter_) filter_frame(output);
+  facts.matched_ns = monotonic_ns();
+  publisher_.frame_final(output);
+}
+
+// The tables are made when the first frame shows how its pixels lie in memory, and again if that ever changes.
+void Pipeline::prepare_maps(const LeasedPair& pair) {
+  const auto prepare = [](std::optional<RectifyMap>& map, const FrameLease& lease, const CameraCalibration* camera) {
+    const SourceLayout layout = layout_of(lease.frame().luma);
+    if (map && map->layout() == layout) return;
+    map.emplace(camera != nullptr ? RectifyMap(*camera, layout) : RectifyMap::identity(layout));
+  };
+  prepare(left_map_, pair.left, rig_.calibration ? &rig_.calibration->left : nullptr);
+  prepare(right_map_, pair.right, rig_.calibration ? &rig_.calibration->right : nullptr);
+}
+
+void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {
+  const BandWorker::Job job{pair, *left_map_, *right_map_, output, publisher_, !speckle_filter_};
+  const int blocks = publisher_.blocks();
+  const int bands = std::min(pool_.workers(), blocks);
+  pool_.run(bands, [&](int band, int /*worker*/) {
+    workers_[static_cast<std::size_t>(band)].run(job, band_rows(blocks, band, bands));
+  });
+  std::int64_t rectify_ns = 0, match_ns = 0;
+  for (int band = 0; band < bands; ++band) {
+    rectify_ns += workers_[static_cast<std::size_t>(band)].rectify_ns();
+    match_ns += workers_[static_cast<std::size_t>(band)].match_ns();
+  }
+  output.facts.rectify_ns = rectify_ns / bands;
+  output.facts.match_ns = match_ns / bands;
+}
+
+void Pipeline::filter_frame(OutputFrame& output) noexcept {
+  const std::int64_t begin = monotonic_ns();
+  const MatcherOptions& options = config_.matcher;
+  speckle_filter_->apply(output.disparity.view(), options.speckle_size,
+                         options.speckle_max_diff * options.units_per_pixel());
+  output.facts.filter_ns = monotonic_ns() - begin;
+  for (int block = 0; block < publisher_.blocks(); ++block) publisher_.block_final(output, block);
+}
+
+}  // namespace stereod

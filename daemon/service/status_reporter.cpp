@@ -1,0 +1,146 @@
+#include "daemon/service/status_reporter.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "daemon/pipeline/clocks.h"
+#include "daemon/service/process_usage.h"
+#include "daemon/service/version.h"
+
+namespace stereod {
+namespace {
+
+constexpr std::size_t kLargestStatus = 8192;
+
+const char* state_name(SourceState state) {
+  switch (state) {
+    case SourceState::kWaiting: return "waiting";
+    case SourceState::kStreaming: return "streaming";
+    case SourceState::kFinished: return "finished";
+  }
+  return "?";
+}
+
+std::string missing_cameras(const PipelineFigures& now, const PipelineFigures& before) {
+  const bool left = now.left.frames > before.left.frames;
+  const bool right = now.right.frames > before.right.frames;
+  if (left && right) return {};
+  if (left) return "no frames from the right camera";
+  if (right) return "no frames from the left camera";
+  return "no frames from either camera";
+}
+
+}  // namespace
+
+ServiceState judge_state(const PipelineFigures& now, const PipelineFigures& before, bool calibrated) {
+  const std::string missing = missing_cameras(now, before);
+  if (!missing.empty()) return {"waiting_for_cameras", missing};
+  if (now.published.frames == before.published.frames) {
+    if (now.pairing.pairs == before.pairing.pairs) {
+      return {"degraded", "both cameras give frames, but never near enough in time to be a pair; raise "
+                          "cameras.max_skew_ms or give both the same rate"};
+    }
+    return {"degraded", "pairs are made but none was published in the last second"};
+  }
+  if (now.published.messages_refused > before.published.messages_refused) {
+    return {"degraded", "the network refused messages"};
+  }
+  if (!calibrated) return {"uncalibrated", "no calibration is configured, so the images are matched unrectified"};
+  return {"streaming", ""};
+}
+
+StatusReporter::StatusReporter(Pipeline& pipeline, MessageBus& bus)
+    : pipeline_(pipeline),
+      bus_(bus),
+      encoder_(kLargestStatus),
+      status_channel_(pipeline.config().lcm.prefix + "_STATUS"),
+      camera_info_channel_(pipeline.config().lcm.prefix + "_CAMERA_INFO"),
+      started_ns_(monotonic_ns()),
+      before_ns_(started_ns_),
+      before_cpu_s_(process_cpu_seconds()) {
+  status_.version = kVersion;
+  status_.matcher = pipeline.matcher_description();
+  status_.left.name = "left";
+  status_.left.device = pipeline.rig().left_name.substr(0, 500);
+  status_.right.name = "right";
+  status_.right.device = pipeline.rig().right_name.substr(0, 500);
+}
+
+void StatusReporter::report() {
+  const PipelineFigures now = pipeline_.take_figures();
+  const std::int64_t now_ns = monotonic_ns();
+  const double seconds = std::max(1e-3, static_cast<double>(now_ns - before_ns_) * 1e-9);
+  const double cpu_s = process_cpu_seconds();
+  const bool calibrated = pipeline_.rig().calibration.has_value();
+  const ServiceState state = std::exchange(first_, false) ? ServiceState{"starting", "waiting for the first frames"}
+                                                          : judge_state(now, before_, calibrated);
+  if (state.name != status_.state || state.reason != status_.reason) {
+    spdlog::info("state: {}{}{}", state.name, state.reason.empty() ? "" : ": ", state.reason);
+  }
+
+  status_.utime = wall_us();
+  status_.state = state.name;
+  status_.reason = state.reason;
+  status_.uptime_s = static_cast<double>(now_ns - started_ns_) * 1e-9;
+  status_.fps_in = static_cast<double>(now.pairing.pairs - before_.pairing.pairs) / seconds;
+  status_.fps_out = static_cast<double>(now.published.frames - before_.published.frames) / seconds;
+  status_.frames_published = now.published.frames;
+  status_.pairs_made = now.pairing.pairs;
+  status_.pairs_dropped_superseded = now.pairing.pairs_superseded;
+  status_.frames_dropped_no_partner = now.pairing.left_without_partner + now.pairing.right_without_partner;
+  status_.frames_dropped_time_jump = now.pairing.frames_before_time_jump;
+  status_.publish_errors = now.published.messages_refused;
+  status_.skew_ms_median = now.published.skew_ms.percentile(0.5);
+  status_.skew_ms_p95 = now.published.skew_magnitude_ms.percentile(0.95);
+  status_.latency_ms_median = now.published.latency_ms.percentile(0.5);
+  status_.latency_ms_p95 = now.published.latency_ms.percentile(0.95);
+  status_.latency_ms_max = now.published.latency_ms.percentile(1);
+  status_.match_ms_median = now.published.match_ms.percentile(0.5);
+  status_.valid_fraction = now.published.valid_fraction;
+  status_.cpu_percent = 100 * (cpu_s - before_cpu_s_) / seconds;
+  status_.rss_mb = process_rss_mb();
+  fill_camera(status_.left, now.left, before_.left, seconds);
+  fill_camera(status_.right, now.right, before_.right, seconds);
+  encoder_.publish(bus_, status_channel_.c_str(), status_);
+  publish_camera_info();
+
+  before_ = now;
+  before_ns_ = now_ns;
+  before_cpu_s_ = cpu_s;
+}
+
+void StatusReporter::fill_camera(camera_status_t& message, const CameraFigures& now, const CameraFigures& before,
+                                 double seconds) {
+  message.state = state_name(now.state);
+  message.reason = now.state == SourceState::kFinished ? "the recording has played to its end" : "";
+  message.fps = static_cast<double>(now.frames - before.frames) / seconds;
+  message.frames = now.frames;
+  message.sequence_gaps = now.sequence_gaps;
+}
+
+void StatusReporter::publish_camera_info() {
+  const MatcherOptions& matcher = pipeline_.config().matcher;
+  const Size size = pipeline_.rig().left->frame_size();
+  camera_info_t info{};
+  info.utime = wall_us();
+  info.width = size.width;
+  info.height = size.height;
+  info.min_disparity = matcher.min_disparity;
+  info.disparities = matcher.disparities;
+  if (const auto& calibration = pipeline_.rig().calibration) {
+    const RectifiedProjection& left = calibration->left.projection;
+    info.calibrated = 1;
+    info.fx = left.fx;
+    info.fy = left.fy;
+    info.cx = left.cx;
+    info.cy = left.cy;
+    info.baseline_m = calibration->baseline_m;
+    info.disparity_offset = calibration->right.projection.cx - left.cx;
+    info.calibration_id = calibration->id;
+  }
+  encoder_.publish(bus_, camera_info_channel_.c_str(), info);
+}
+
+}  // namespace stereod

@@ -1,0 +1,47 @@
+// Says once a second how the daemon is.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "daemon/pipeline/pipeline.h"
+#include "daemon/publish/message_bus.h"
+#include "daemon/publish/message_encoder.h"
+#include "stereod/camera_info_t.hpp"
+#include "stereod/status_t.hpp"
+
+namespace stereod {
+
+/// What the daemon is doing, and why, in words.
+struct ServiceState {
+  std::string name;    ///< starting, waiting_for_cameras, uncalibrated, streaming or degraded
+  std::string reason;  ///< empty when streaming
+};
+
+/// Judges from what happened during the last period.
+ServiceState judge_state(const PipelineFigures& now, const PipelineFigures& before, bool calibrated);
+
+/// Publishes status_t and camera_info_t, and logs every change of state once.
+class StatusReporter {
+ public:
+  StatusReporter(Pipeline& pipeline, MessageBus& bus);
+
+  /// To be called about once a second; the first call says "starting".
+  void report();
+
+ private:
+  void publish_camera_info();
+  void fill_camera(camera_status_t& message, const CameraFigures& now, const CameraFigures& before, double seconds);
+
+  Pipeline& pipeline_;
+  MessageBus& bus_;
+  MessageEncoder encoder_;
+  status_t status_{};
+  std::string status_channel_, camera_info_channel_;
+  PipelineFigures before_;
+  bool first_ = true;
+  std::int64_t started_ns_, before_ns_;
+  double before_cpu_s_;
+};
+
+}  // namespace stereod

@@ -1,0 +1,137 @@
+#include "daemon/tools/match_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "daemon/config/config.h"
+#include "daemon/imagefile/disparity_file.h"
+
+namespace stereod {
+
+namespace {
+
+/// The flags as they stand on the command line.
+struct Flags {
+  std::string left, right;
+  std::optional<std::string> output, color, calibration, config, ground_truth;
+  std::vector<std::string> rectified;
+  std::optional<std::string> preset, implementation, isa, cost;
+  std::optional<int> disparities, min_disparity, window, threads, repeat;
+  std::optional<double> gt_scale;
+};
+
+void declare(CLI::App& app, Flags& flags) {
+  app.add_option("LEFT", flags.left, "left picture, the reference: PNG, JPEG, PGM or PPM")->required();
+  app.add_option("RIGHT", flags.right, "right picture of the same size")->required();
+  app.add_option("-o,--output", flags.output, "disparities: .pfm (Middlebury) or .png (16 bit, KITTI)");
+  app.add_option("--color", flags.color, "a picture for a person, with a scale: .png");
+  app.add_option("--preset", flags.preset, "matcher settings: " + std::string(kMatcherPresets));
+  app.add_option("--config", flags.config, "take the matcher settings from a stereod.yaml");
+  app.add_option("--disparities", flags.disparities, "how many disparities are searched, 1 to 256");
+  app.add_option("--min-disparity", flags.min_disparity, "the first of them, in pixels");
+  app.add_option("--window", flags.window, "side of the support window, odd, 3 to 31 pixels");
+  app.add_option("--cost", flags.cost, "sad, ssd or mad (the last two: only --implementation naive)");
+  app.add_option("--implementation", flags.implementation, "naive, sliding or simd");
+  app.add_option("--isa", flags.isa, "instruction set for simd: auto, scalar, ssse3, sse41, avx2 or neon");
+  app.add_option("--threads", flags.threads, "1 to 256; default: one for each CPU");
+  app.add_option("--calibration", flags.calibration, "rectify both pictures first, by this calibration.yaml");
+  app.add_option("--rectified", flags.rectified, "write the two pictures that were matched: .png .png")
+      ->expected(2);
+  app.add_option("--ground-truth", flags.ground_truth, "compare with the true disparities: picture or .pfm");
+  app.add_option("--gt-scale", flags.gt_scale,
+                 "grey levels per pixel of disparity in that picture; default 1");
+  app.add_option("--repeat", flags.repeat, "match so many times more and print the median time");
+}
+
+template <typename Value>
+Value named(const std::optional<Value>& value, const std::string& name, const char* flag,
+            const std::string& allowed) {
+  if (value) return *value;
+  throw UsageError(std::string(flag) + ": '" + name + "' is not known; allowed are " + allowed);
+}
+
+MatcherOptions matcher_options(const Flags& flags) {
+  MatcherOptions options;
+  if (flags.config) options = read_config(*flags.config).matcher;
+  if (flags.preset) {
+    options = named(matcher_preset(*flags.preset), *flags.preset, "--preset", std::string(kMatcherPresets));
+  }
+  options.disparities = flags.disparities.value_or(options.disparities);
+  options.min_disparity = flags.min_disparity.value_or(options.min_disparity);
+  options.window = flags.window.value_or(options.window);
+  if (flags.cost) options.cost = named(parse_cost(*flags.cost), *flags.cost, "--cost", "sad, ssd, mad");
+  if (flags.implementation) {
+    options.implementation = named(parse_implementation(*flags.implementation), *flags.implementation,
+                                   "--implementation", "naive, sliding, simd");
+  }
+  if (flags.isa) {
+    options.isa = named(parse_isa(*flags.isa), *flags.isa, "--isa", "auto, scalar, ssse3, sse41, avx2, neon");
+  }
+  if (const std::optional<std::string> problem = problem_with(options)) throw UsageError(*problem);
+  return options;
+}
+
+int in_range(int value, int least, int most, const char* flag) {
+  if (value >= least && value <= most) return value;
+  throw UsageError(std::string(flag) + ": is " + std::to_string(value) + "; " + std::to_string(least) +
+                   " to " + std::to_string(most) + " is allowed");
+}
+
+std::filesystem::path png_name(const std::string& name) {
+  std::filesystem::path path = name;
+  if (path.extension() == ".png") return path;
+  throw UsageError(name + ": this picture is written as PNG; its name must end with .png");
+}
+
+MatchArguments checked(const Flags& flags) {
+  MatchArguments arguments;
+  arguments.left = flags.left;
+  arguments.right = flags.right;
+  arguments.output = flags.output;
+  arguments.calibration = flags.calibration;
+  arguments.ground_truth = flags.ground_truth;
+  if (flags.output) check_disparity_file_name(*flags.output);
+  if (flags.color) arguments.color = png_name(*flags.color);
+  if (flags.rectified.size() == 2) {
+    arguments.rectified = RectifiedFiles{png_name(flags.rectified[0]), png_name(flags.rectified[1])};
+  }
+  if (!flags.output && !flags.color && !flags.ground_truth && !flags.repeat && !arguments.rectified) {
+    throw UsageError("there is nothing to do; ask for -o, --color, --rectified, --ground-truth or --repeat");
+  }
+  if (flags.gt_scale && !flags.ground_truth) {
+    throw UsageError("--gt-scale: belongs to --ground-truth, which is not there");
+  }
+  arguments.ground_truth_scale = flags.gt_scale.value_or(1);
+  if (!(arguments.ground_truth_scale > 0 && std::isfinite(arguments.ground_truth_scale))) {
+    throw UsageError("--gt-scale: must be above 0");
+  }
+  if (flags.repeat) arguments.repeat = in_range(*flags.repeat, 1, 1'000'000, "--repeat");
+  const int cpus = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 256);
+  arguments.threads = in_range(flags.threads.value_or(cpus), 1, 256, "--threads");
+  arguments.matcher = matcher_options(flags);
+  return arguments;
+}
+
+}  // namespace
+
+std::variant<MatchArguments, TextToPrint> parse_match_arguments(int argc, const char* const* argv) {
+  CLI::App app("stereo-match: the matcher of stereod on two picture files", "stereo-match");
+  Flags flags;
+  declare(app, flags);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return TextToPrint{app.help()};
+  } catch (const CLI::ParseError& error) {
+    std::string sentence = error.what();
+    std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+    throw UsageError(sentence + "; see --help");
+  }
+  return checked(flags);
+}
+
+}  // namespace stereod

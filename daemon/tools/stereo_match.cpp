@@ -1,0 +1,144 @@
+// stereo-match: the daemon's matcher on two picture files.
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/depth.h"
+#include "core/match/frame_matcher.h"
+#include "core/rectify_map.h"
+#include "core/worker_pool.h"
+#include "daemon/config/calibration_file.h"
+#include "daemon/config/file_error.h"
+#include "daemon/imagefile/disparity_file.h"
+#include "daemon/imagefile/disparity_picture.h"
+#include "daemon/imagefile/read_image.h"
+#include "daemon/imagefile/write_image.h"
+#include "daemon/tools/evaluation.h"
+#include "daemon/tools/match_arguments.h"
+#include "daemon/tools/match_report.h"
+
+namespace stereod {
+namespace {
+
+constexpr int kBadInput = 2;
+constexpr int kFailure = 1;
+
+struct Pair {
+  GreyImage left;
+  GreyImage right;
+};
+
+std::string words_for(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
+
+/// `what` is how the file has its size: "has", "is for".
+void require_size(const std::filesystem::path& file, const char* what, Size found,
+                  const std::filesystem::path& reference, Size wanted) {
+  if (found == wanted) return;
+  throw FileError(file.string() + ": " + what + " " + words_for(found) + " pixels, but " +
+                  reference.string() + " has " + words_for(wanted) + "; they must have one size");
+}
+
+GreyImage rectified(const GreyImage& source, const CameraCalibration& calibration, WorkerPool& pool) {
+  const RectifyMap map(calibration, {source.size(), source.view().stride(), 1});
+  GreyImage result(source.size());
+  rectify_grey(map, source.row(0), result.view(), pool);
+  return result;
+}
+
+Pair read_pair(const MatchArguments& arguments, const std::optional<Calibration>& calibration,
+               WorkerPool& pool) {
+  Pair pair{read_grey(arguments.left), read_grey(arguments.right)};
+  require_size(arguments.right, "has", pair.right.size(), arguments.left, pair.left.size());
+  if (!calibration) return pair;
+  require_size(*arguments.calibration, "is for", calibration->image, arguments.left, pair.left.size());
+  return {rectified(pair.left, calibration->left, pool), rectified(pair.right, calibration->right, pool)};
+}
+
+std::vector<double> measure(FrameMatcher& matcher, const Pair& pair, DisparityImage& disparity, int runs) {
+  std::vector<double> times_ms;
+  for (int run = 0; run < runs; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    matcher.match(pair.left.view(), pair.right.view(), disparity.view());
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    times_ms.push_back(time.count());
+  }
+  return times_ms;
+}
+
+void write_view(const MatchArguments& arguments, const DisparityImage& disparity,
+                const std::optional<Calibration>& calibration) {
+  DisparityPictureOptions options;
+  if (calibration) {
+    options.depth = DepthScale{calibration->left.projection.fx * calibration->baseline_m,
+                               disparity_offset_px(*calibration)};
+  }
+  const ColorImage picture = draw_disparity(disparity.view(), arguments.matcher.units_per_pixel(), options);
+  write_png(*arguments.color, picture.view());
+}
+
+void run(const MatchArguments& arguments) {
+  std::optional<Calibration> calibration;
+  if (arguments.calibration) calibration = read_calibration(*arguments.calibration);
+  WorkerPool pool(arguments.threads);
+  const Pair pair = read_pair(arguments, calibration, pool);
+  std::optional<Image<float>> truth;
+  if (arguments.ground_truth) {
+    truth = read_ground_truth(*arguments.ground_truth, arguments.ground_truth_scale);
+    require_size(*arguments.ground_truth, "has", truth->size(), arguments.left, pair.left.size());
+  }
+
+  FrameMatcher matcher(arguments.matcher, pair.left.size(), pool);
+  DisparityImage disparity(pair.left.size());
+  matcher.match(pair.left.view(), pair.right.view(), disparity.view());
+
+  const int units = arguments.matcher.units_per_pixel();
+  if (arguments.output) write_disparity(*arguments.output, disparity.view(), units);
+  if (arguments.color) write_view(arguments, disparity, calibration);
+  if (arguments.rectified) {
+    write_png(arguments.rectified->left, pair.left.view());
+    write_png(arguments.rectified->right, pair.right.view());
+  }
+  if (truth) {
+    const double grey_per_px = 255.0 / (arguments.matcher.min_disparity + arguments.matcher.disparities);
+    const Evaluation evaluation = evaluate(disparity.view(), units, truth->view(), grey_per_px);
+    std::fputs(evaluation_table(evaluation, arguments.ground_truth->string(), grey_per_px).c_str(), stdout);
+  }
+  if (arguments.repeat > 0) {
+    // The run above has touched all memory, so that the first measured one does not pay for it.
+    std::fputs(timing_line(measure(matcher, pair, disparity, arguments.repeat)).c_str(), stdout);
+  }
+}
+
+int say(int status, const char* sentence) {
+  std::fprintf(stderr, "stereo-match: %s\n", sentence);
+  return status;
+}
+
+}  // namespace
+}  // namespace stereod
+
+int main(int argc, char** argv) {
+  try {
+    const auto arguments = stereod::parse_match_arguments(argc, argv);
+    if (const auto* help = std::get_if<stereod::TextToPrint>(&arguments)) {
+      std::fputs(help->text.c_str(), stdout);
+    } else {
+      stereod::run(std::get<stereod::MatchArguments>(arguments));
+    }
+    return 0;
+  } catch (const stereod::FileError& error) {
+    return stereod::say(stereod::kBadInput, error.what());
+  } catch (const stereod::UsageError& error) {
+    return stereod::say(stereod::kBadInput, error.what());
+  } catch (const std::invalid_argument& error) {
+    return stereod::say(stereod::kBadInput, error.what());
+  } catch (const std::exception& error) {
+    return stereod::say(stereod::kFailure, error.what());
+  }
+}

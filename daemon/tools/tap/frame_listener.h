@@ -1,0 +1,14 @@
+// From LCM's messages to the frame assembler.
+#pragma once
+
+#include "daemon/tools/tap/frame_assembler.h"
+#include "daemon/tools/tap/lcm_receiver.h"
+#include "daemon/tools/tap/tap.h"
+
+namespace stereod {
+
+/// Subscribes to disparity rows and frames and feeds them to `assembler`, which lives as long as `receiver`
+/// receives. Throws BusError.
+void listen_for_frames(LcmReceiver& receiver, const TapOptions& tap, FrameAssembler& assembler);
+
+}  // namespace stereod

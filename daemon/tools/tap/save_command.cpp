@@ -1,0 +1,136 @@
+// stereo-tap save: frames into files.
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "daemon/imagefile/disparity_file.h"
+#include "daemon/imagefile/disparity_picture.h"
+#include "daemon/imagefile/write_image.h"
+#include "daemon/tools/tap/frame_assembler.h"
+#include "daemon/tools/tap/frame_listener.h"
+#include "daemon/tools/tap/lcm_receiver.h"
+#include "daemon/tools/tap/message_decoder.h"
+#include "daemon/tools/tap/tap.h"
+#include "daemon/tools/tap/text_table.h"
+
+namespace stereod {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+// The daemon sends its camera information once a second.
+constexpr std::chrono::seconds kPatienceForCameraInfo{2};
+
+/// How depth follows from disparity; nothing if the message does not say so in numbers that make sense.
+std::optional<DepthScale> depth_scale_of(const camera_info_t& info) {
+  const DepthScale scale{info.fx * info.baseline_m, info.disparity_offset};
+  const bool usable = info.calibrated != 0 && std::isfinite(scale.focal_baseline) &&
+                      scale.focal_baseline > 0 && std::isfinite(scale.offset_px);
+  return usable ? std::optional<DepthScale>(scale) : std::nullopt;
+}
+
+/// Waits for the camera information; nothing if there is none, or no calibration.
+std::optional<DepthScale> wait_for_depth_scale(LcmReceiver& receiver, const TapOptions& tap,
+                                               StopSignals& stop) {
+  // The subscription stays; what it learns is wanted only here.
+  const auto heard = std::make_shared<std::optional<camera_info_t>>();
+  receiver.subscribe(tap.channel("CAMERA_INFO"), [heard](std::span<const std::byte> bytes) {
+    camera_info_t info;
+    if (decode_message(bytes, info)) *heard = info;
+  });
+  const Clock::time_point end = Clock::now() + kPatienceForCameraInfo;
+  while (!*heard && Clock::now() < end && !stop.arrived()) receiver.receive(milliseconds(50));
+  return *heard ? depth_scale_of(**heard) : std::nullopt;
+}
+
+double valid_share(DisparityView disparity) {
+  std::int64_t valid = 0;
+  for (int y = 0; y < disparity.height(); ++y) {
+    for (int x = 0; x < disparity.width(); ++x) valid += disparity.at(x, y) >= 0 ? 1 : 0;
+  }
+  return static_cast<double>(valid) / (static_cast<double>(disparity.width()) * disparity.height());
+}
+
+/// Writes frame-NUMBER.pfm and frame-NUMBER.png and says so.
+void save(const AssembledFrame& frame, const std::filesystem::path& directory,
+          std::optional<DepthScale> depth) {
+  char name[40];
+  std::snprintf(name, sizeof name, "frame-%06lld", static_cast<long long>(frame.frame));
+  const std::filesystem::path pfm = directory / (std::string(name) + ".pfm");
+  const std::filesystem::path png = directory / (std::string(name) + ".png");
+  DisparityPictureOptions look;
+  look.depth = depth;
+
+  const DisparityView disparity = frame.disparity.view();
+  write_disparity_pfm(pfm, disparity, frame.units_per_pixel);
+  const ColorImage picture = draw_disparity(disparity, frame.units_per_pixel, look);
+  write_png(png, picture.view());
+  std::printf("%s and .png: %d x %d, %s %% valid, scale in %s\n", pfm.c_str(), disparity.width(),
+              disparity.height(), fixed(100 * valid_share(disparity), 1).c_str(),
+              depth ? "metres" : "pixels");
+  std::fflush(stdout);
+}
+
+void make_directory(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) {
+    throw std::runtime_error("the directory " + directory.string() + " cannot be made: " + error.message() +
+                             ".");
+  }
+}
+
+/// How many frames came, whole or not.
+struct Tally {
+  int saved = 0;
+  int incomplete = 0;
+  Clock::time_point latest = Clock::now();
+};
+
+int verdict(const TapOptions& tap, const LcmReceiver& receiver, const SaveOptions& options,
+            const Tally& tally) {
+  if (tally.incomplete > 0) {
+    complain(std::to_string(tally.incomplete) + " frames arrived incomplete and were not saved.");
+    if (const auto advice = receive_buffer_advice(kernel_receive_buffer_limit())) complain(*advice);
+  }
+  if (tally.saved == options.frames) return kAllWell;
+  complain("no whole frame on " + tap.channel("DISPARITY") + " and " + tap.channel("FRAME") + " for " +
+           fixed(options.timeout_s, 1) + " s (" + receiver.url() + "), " + std::to_string(tally.saved) +
+           " of " + std::to_string(options.frames) + " saved; is stereod streaming?");
+  return tally.incomplete > 0 ? kSomethingLost : kNothingArrived;
+}
+
+}  // namespace
+
+int run_save(const TapOptions& tap, const SaveOptions& options, StopSignals& stop) {
+  make_directory(options.directory);
+  LcmReceiver receiver(tap.lcm_url);
+  const std::optional<DepthScale> depth = wait_for_depth_scale(receiver, tap, stop);
+  Tally tally;
+  FrameAssembler assembler([&](AssembledFrame&& frame) {
+    if (tally.saved == options.frames) return;
+    if (!frame.complete() || frame.rows_received == 0) {
+      // The first frame heard has usually begun before the listening.
+      tally.incomplete += tally.saved > 0 ? 1 : 0;
+      return;
+    }
+    save(frame, options.directory, depth);
+    ++tally.saved;
+    tally.latest = Clock::now();
+  });
+  listen_for_frames(receiver, tap, assembler);
+
+  const auto patience = std::chrono::duration<double>(options.timeout_s);
+  tally.latest = Clock::now();
+  while (tally.saved < options.frames && !stop.arrived() && Clock::now() - tally.latest < patience) {
+    receiver.receive(milliseconds(50));
+  }
+  return stop.arrived() ? static_cast<int>(kAllWell) : verdict(tap, receiver, options, tally);
+}
+
+}  // namespace stereod

@@ -1,0 +1,62 @@
+// What the commands of stereo-tap share.
+#pragma once
+
+#include <signal.h>
+
+#include <filesystem>
+#include <string>
+
+namespace stereod {
+
+/// Options that come before or after any command.
+struct TapOptions {
+  std::string lcm_url;  ///< empty: LCM's default
+  std::string prefix = "STEREO";
+
+  /// The channel of this daemon with that ending, for example STEREO_STATUS.
+  std::string channel(const std::string& ending) const { return prefix + "_" + ending; }
+};
+
+/// What stereo-tap ends with.
+enum ExitStatus : int {
+  kAllWell = 0,
+  kFailed = 1,  ///< wrong usage, no network, a file that cannot be written
+  kNothingArrived = 2,
+  kSomethingLost = 3,
+};
+
+/// Keeps SIGINT and SIGTERM from ending the program in the middle of something: from its construction on they
+/// are only noted. Make it before LCM starts its threads, which inherit this.
+class StopSignals {
+ public:
+  StopSignals();
+  /// True once one of them has come.
+  bool arrived();
+
+ private:
+  sigset_t signals_{};
+  bool arrived_ = false;
+};
+
+struct StatusOptions {
+  bool once = false;
+  double timeout_s = 5;
+};
+struct SaveOptions {
+  int frames = 1;
+  std::filesystem::path directory;
+  double timeout_s = 10;  ///< how long nothing may arrive
+};
+struct CheckOptions {
+  double seconds = 5;
+};
+
+/// The commands. Each returns an ExitStatus; they throw std::runtime_error with one sentence.
+int run_status(const TapOptions& tap, const StatusOptions& options, StopSignals& stop);
+int run_save(const TapOptions& tap, const SaveOptions& options, StopSignals& stop);
+int run_check(const TapOptions& tap, const CheckOptions& options, StopSignals& stop);
+
+/// One line on stderr, after the program's name.
+void complain(const std::string& sentence);
+
+}  // namespace stereod
