@@ -6,10 +6,10 @@ namespace stereod {
 
 Matrix3 operator*(const Matrix3& a, const Matrix3& b) {
   Matrix3 product;
+  double* element = product.m.data();
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      product.m[static_cast<std::size_t>(row * 3 + column)] =
-          a(row, 0) * b(0, column) + a(row, 1) * b(1, column) + a(row, 2) * b(2, column);
+      *element++ = a(row, 0) * b(0, column) + a(row, 1) * b(1, column) + a(row, 2) * b(2, column);
     }
   }
   return product;

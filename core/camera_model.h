@@ -25,7 +25,9 @@ struct Vector3 {
 struct Matrix3 {
   std::array<double, 9> m{1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-  double operator()(int row, int column) const { return m[static_cast<std::size_t>(row * 3 + column)]; }
+  double operator()(int row, int column) const {
+    return m[static_cast<std::size_t>(row) * 3 + static_cast<std::size_t>(column)];
+  }
   friend bool operator==(const Matrix3&, const Matrix3&) = default;
 };
 

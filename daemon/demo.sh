@@ -83,6 +83,7 @@ YAML
 show() {
   local name=$1 config=$2 scratch=$output/$1-frames log=$output/$1.log
   rm -rf "$scratch"
+  "$bin/stereod" --config "$config" --check-config >"$log" 2>&1 || { cat "$log" >&2; die "stereod refuses $config."; }
   "$bin/stereod" --config "$config" >"$log" 2>&1 &
   daemon_pid=$!
   # The first frame takes as long as the pictures take to load.

@@ -1,6 +1,7 @@
 #include "core/match/median.h"
 
 #include <array>
+#include <cstring>
 #include <limits>
 
 #include "core/disparity.h"
@@ -8,10 +9,16 @@
 namespace stereod {
 namespace {
 
-// Pixels done at once. All steps are plain loops over them, which the compiler turns into vector instructions.
-constexpr int kColumns = 16;
-using Values = std::array<std::int16_t, kColumns>;
+// Pixels done at once, in one vector of the compiler's: every CPU here has 16-byte ones.
+constexpr int kColumns = 8;
+using Values [[gnu::vector_size(2 * kColumns)]] = std::int16_t;
 static_assert(kColumns + 4 <= kMedianMargin);
+
+Values load(const std::int16_t* p) {
+  Values values;
+  std::memcpy(&values, p, sizeof(values));
+  return values;
+}
 
 struct Comparator {
   int low, high;
@@ -44,15 +51,6 @@ constexpr auto sorting_network() {
   return network;
 }
 
-void order(Values& low, Values& high) {
-  for (std::size_t i = 0; i < kColumns; ++i) {
-    const std::int16_t a = low[i];
-    const std::int16_t b = high[i];
-    low[i] = a < b ? a : b;
-    high[i] = a < b ? b : a;
-  }
-}
-
 // kColumns pixels from column x on. Invalid pixels sort to the end, so the middle of the v valid ones is at
 // (v − 1) / 2.
 template <int kRadius>
@@ -60,26 +58,30 @@ void median_block(const std::int16_t* const* rows, int x, std::int16_t* out) {
   constexpr int kSide = 2 * kRadius + 1;
   constexpr int kN = kSide * kSide;
   static constexpr auto kNetwork = sorting_network<kN>();
-  std::array<Values, kN> values;
-  Values valid{};
+  const Values invalid = Values{} + kInvalidDisparity;
+  const Values last = Values{} + std::numeric_limits<std::int16_t>::max();
+  Values values[kN];
+  Values valid_count{};
+#pragma GCC unroll 25
   for (int n = 0; n < kN; ++n) {
-    const std::int16_t* in = rows[n / kSide] + x + n % kSide - kRadius;
-    for (std::size_t i = 0; i < kColumns; ++i) {
-      const bool is_valid = in[i] != kInvalidDisparity;
-      values[static_cast<std::size_t>(n)][i] = is_valid ? in[i] : std::numeric_limits<std::int16_t>::max();
-      valid[i] = static_cast<std::int16_t>(valid[i] + (is_valid ? 1 : 0));
-    }
+    const Values in = load(rows[n / kSide] + x + n % kSide - kRadius);
+    values[n] = in != invalid ? in : last;
+    valid_count -= in != invalid;  // a true lane is −1
   }
+#pragma GCC unroll 256
   for (const Comparator& comparator : kNetwork) {
-    order(values[static_cast<std::size_t>(comparator.low)], values[static_cast<std::size_t>(comparator.high)]);
+    const Values a = values[comparator.low];
+    const Values b = values[comparator.high];
+    values[comparator.low] = a < b ? a : b;
+    values[comparator.high] = a < b ? b : a;
   }
   Values result = values[0];
+#pragma GCC unroll 25
   for (std::int16_t place = 1; place <= (kN - 1) / 2; ++place) {
-    const Values& candidate = values[static_cast<std::size_t>(place)];
-    for (std::size_t i = 0; i < kColumns; ++i) result[i] = valid[i] > 2 * place ? candidate[i] : result[i];
+    result = valid_count > Values{} + static_cast<std::int16_t>(2 * place) ? values[place] : result;
   }
-  const std::int16_t* center = rows[kRadius] + x;
-  for (std::size_t i = 0; i < kColumns; ++i) out[x + static_cast<int>(i)] = center[i] == kInvalidDisparity ? kInvalidDisparity : result[i];
+  result = load(rows[kRadius] + x) != invalid ? result : invalid;
+  std::memcpy(out + x, &result, sizeof(result));
 }
 
 }  // namespace

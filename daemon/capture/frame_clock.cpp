@@ -20,7 +20,7 @@ std::int64_t to_ns(std::chrono::steady_clock::time_point time) {
 
 }  // namespace
 
-FrameClock::FrameClock(double fps, std::vector<nanoseconds> offsets) {
+FrameClock::FrameClock(double fps, const std::vector<nanoseconds>& offsets) {
   if (!(fps >= 0 && fps <= 1000)) {
     std::ostringstream message;
     message << "frames come at 0 to 1000 frames a second, not " << fps;

@@ -32,7 +32,7 @@ class FrameClock {
   /// `fps` 0…1000 frames a second. `offsets`: one entry for each camera, how much later than the others it
   /// exposes and delivers its frames; its place in the list is the camera's number. Throws
   /// std::invalid_argument.
-  FrameClock(double fps, std::vector<std::chrono::nanoseconds> offsets);
+  FrameClock(double fps, const std::vector<std::chrono::nanoseconds>& offsets);
   FrameClock(const FrameClock&) = delete;
   FrameClock& operator=(const FrameClock&) = delete;
 

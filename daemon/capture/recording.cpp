@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <compare>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -21,12 +20,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMemoryLimit = std::size_t{1} << 30;
 
-/// A picture's number as text, so that it may have any number of digits.
-struct FrameNumber {
-  std::size_t digits = 0;  // without leading zeros; the longer number is the larger one
-  std::string text;
-  friend auto operator<=>(const FrameNumber&, const FrameNumber&) = default;
-};
+/// A picture's number as text, so that it may be of any length: how many digits without leading zeros, and
+/// those. So the longer number is the larger one.
+using FrameNumber = std::pair<std::size_t, std::string>;
 
 using NumberedFiles = std::map<FrameNumber, fs::path>;
 

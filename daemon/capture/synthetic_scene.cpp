@@ -116,7 +116,8 @@ GreyImage SyntheticScene::render(const View& view, int frame) const {
       const SceneHit hit = moving.hit({view.origin_x, rays[x].x, rays[x].y}, still[x]);
       random += 0x9e3779b97f4a7c15;
       const float value = view.gain * hit.brightness + view.black_level + kNoise * normal(mixed(random));
-      out[x] = static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+      const float half_more = value + 0.5F;  // for the conversion to round to the nearest
+      out[x] = static_cast<std::uint8_t>(std::clamp(half_more, 0.0F, 255.0F));
     }
   }
   return image;

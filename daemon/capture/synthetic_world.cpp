@@ -29,15 +29,22 @@ float lattice(int x, int y, std::uint32_t salt) {
   return static_cast<float>(bits) * 0x1p-31F;
 }
 
-// Smooth between the points of a lattice of spacing 1.
+float between(float a, float b, float part) { return a + part * (b - a); }
+
+int rounded_down(float value) {
+  const int towards_zero = static_cast<int>(value);
+  return towards_zero - (value < static_cast<float>(towards_zero) ? 1 : 0);
+}
+
+// Smooth between the points of a lattice of spacing 1. std::floor and std::lerp would take most of the time
+// here.
 float value_noise(float u, float v, std::uint32_t salt) {
-  const float u0 = std::floor(u), v0 = std::floor(v);
-  const float fu = u - u0, fv = v - v0;
+  const int x = rounded_down(u), y = rounded_down(v);
+  const float fu = u - static_cast<float>(x), fv = v - static_cast<float>(y);
   const float su = fu * fu * (3 - 2 * fu), sv = fv * fv * (3 - 2 * fv);
-  const int x = static_cast<int>(u0), y = static_cast<int>(v0);
-  const float upper = std::lerp(lattice(x, y, salt), lattice(x + 1, y, salt), su);
-  const float lower = std::lerp(lattice(x, y + 1, salt), lattice(x + 1, y + 1, salt), su);
-  return std::lerp(upper, lower, sv);
+  const float upper = between(lattice(x, y, salt), lattice(x + 1, y, salt), su);
+  const float lower = between(lattice(x, y + 1, salt), lattice(x + 1, y + 1, salt), su);
+  return between(upper, lower, sv);
 }
 
 }  // namespace

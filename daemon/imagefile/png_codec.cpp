@@ -170,6 +170,7 @@ std::vector<std::uint8_t> encode(const std::string& file, ImageView<const Pixel>
                                  int color_type) {
   check_picture_size(file, picture.width(), picture.height());
   std::vector<png_bytep> rows;
+  rows.reserve(static_cast<std::size_t>(picture.height()));
   for (int y = 0; y < picture.height(); ++y) {
     // libpng only reads them, but its type predates const.
     rows.push_back(reinterpret_cast<png_bytep>(const_cast<Pixel*>(picture.row(y))));
@@ -210,6 +211,7 @@ DecodedPicture decode_png(const std::string& file, std::span<const std::uint8_t>
     throw FileError(file + ": the PNG file has a pixel layout that is not supported");
   }
   std::vector<png_bytep> rows;
+  rows.reserve(static_cast<std::size_t>(size.height));
   for (int y = 0; y < size.height; ++y) {
     rows.push_back(picture.samples.data() + static_cast<std::size_t>(y) * picture.row_bytes());
   }

@@ -49,8 +49,8 @@ std::vector<ScaleTick> disparity_ticks(const DisparityRange& range, double least
 }
 
 std::vector<ScaleTick> depth_ticks(const DisparityRange& range, const DepthScale& scale, double least_gap) {
-  static constexpr std::array<std::array<double, 3>, 4> kRoundestFirst{
-      {{1, 1, 1}, {2, 5, 5}, {1.5, 3, 7}, {2.5, 4, 6}}};
+  static constexpr std::array<std::array<double, 3>, 5> kRoundestFirst{
+      {{1, 1, 1}, {2, 5, 5}, {1.5, 3, 7}, {2.5, 4, 6}, {1.2, 3.5, 8}}};
   const double span = range.near_px - range.far_px;
   std::vector<ScaleTick> ticks;
   for (const auto& factors : kRoundestFirst) {

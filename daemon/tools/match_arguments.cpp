@@ -55,8 +55,7 @@ Value named(const std::optional<Value>& value, const std::string& name, const ch
 }
 
 MatcherOptions matcher_options(const Flags& flags) {
-  MatcherOptions options;
-  if (flags.config) options = read_config(*flags.config).matcher;
+  MatcherOptions options = flags.config ? read_config(*flags.config).matcher : Config{}.matcher;
   if (flags.preset) {
     options = named(matcher_preset(*flags.preset), *flags.preset, "--preset", std::string(kMatcherPresets));
   }

@@ -40,9 +40,9 @@ struct TextToPrint {
   std::string text;
 };
 
-/// Takes the command line apart. The matcher's settings are the defaults, replaced by the configuration's,
-/// replaced by the preset's, then each changed by its own flag. Throws UsageError, FileError for the
-/// configuration.
+/// Takes the command line apart. The matcher's settings are the daemon's defaults, replaced by the
+/// configuration's, replaced by the preset's, then each changed by its own flag. Throws UsageError, FileError
+/// for the configuration.
 std::variant<MatchArguments, TextToPrint> parse_match_arguments(int argc, const char* const* argv);
 
 }  // namespace stereod

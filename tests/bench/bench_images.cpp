@@ -1,0 +1,53 @@
+#include "tests/bench/bench_images.h"
+
+#include <cstdlib>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace stereod::bench {
+namespace {
+
+constexpr const char* kAloe = "/usr/share/doc/opencv-doc/examples/data/aloe";
+
+std::optional<MatPair> load(const std::string& left, const std::string& right, cv::ImreadModes mode) {
+  MatPair pair{cv::imread(left, mode), cv::imread(right, mode)};
+  if (pair.left.empty() || pair.right.empty()) return std::nullopt;
+  return pair;
+}
+
+}  // namespace
+
+std::filesystem::path datasets() {
+  if (const char* set = std::getenv("STEREO_DATASETS")) return set;
+  // This file is tests/bench/… in the source tree; the data lie beside the tree.
+  return std::filesystem::path(__FILE__).parent_path() / ".." / ".." / ".." / "shared" / "datasets";
+}
+
+std::optional<MatPair> load_tsukuba() {
+  const std::filesystem::path folder = datasets() / "mb2001_tsukuba";
+  return load((folder / "left.png").string(), (folder / "right.png").string(), cv::IMREAD_GRAYSCALE);
+}
+
+std::optional<MatPair> load_aloe_vga() {
+  std::optional<MatPair> pair =
+      load(std::string(kAloe) + "L.jpg", std::string(kAloe) + "R.jpg", cv::IMREAD_COLOR);
+  if (!pair) return std::nullopt;
+  for (cv::Mat* mat : {&pair->left, &pair->right}) {
+    cv::Mat resized;
+    cv::resize(*mat, resized, {640, 480}, 0, 0, cv::INTER_AREA);
+    *mat = resized;
+  }
+  return pair;
+}
+
+cv::Mat grey_of(const cv::Mat& color) {
+  cv::Mat grey;
+  cv::cvtColor(color, grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
+GreyView view_of(const cv::Mat& mat) {
+  return {mat.data, mat.cols, mat.rows, static_cast<std::ptrdiff_t>(mat.step)};
+}
+
+}  // namespace stereod::bench

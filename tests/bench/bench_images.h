@@ -1,0 +1,30 @@
+// The pictures that are measured on, and the bridge to OpenCV.
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "core/image.h"
+
+namespace stereod::bench {
+
+struct MatPair {
+  cv::Mat left, right;
+};
+
+/// Where the data sets are: STEREO_DATASETS, or shared/datasets beside the source tree.
+std::filesystem::path datasets();
+
+/// The thesis' pictures: Tsukuba, 384×288, grey. Nothing if the data set is not there.
+std::optional<MatPair> load_tsukuba();
+
+/// Aloe (Debian's package opencv-doc) at 640×480, 24-bit colour. Nothing if the package is not installed.
+std::optional<MatPair> load_aloe_vga();
+
+cv::Mat grey_of(const cv::Mat& color);
+
+/// The same memory in our words. A grey or 24-bit image; `mat` stays the owner.
+GreyView view_of(const cv::Mat& mat);
+
+}  // namespace stereod::bench

@@ -1,0 +1,183 @@
+#include "daemon/config/config.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "daemon/config/yaml_section.h"
+#include "tests/support/picture_files.h"
+#include "tests/support/temporary_directory.h"
+
+namespace stereod {
+namespace {
+
+class ConfigFile : public testing::Test {
+ protected:
+  std::filesystem::path write(const std::string& text) {
+    const std::filesystem::path file = directory_ / "stereod.yaml";
+    std::ofstream(file) << text;
+    return file;
+  }
+  Config read(const std::string& text) { return read_config(write(text)); }
+
+  /// The error, without the folder's name before the file's.
+  std::string error_of(const std::string& text) {
+    const std::string sentence = file_error_of([&] { read(text); });
+    const std::string folder = directory_.path().string() + "/";
+    return sentence.rfind(folder, 0) == 0 ? sentence.substr(folder.size()) : sentence;
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(ConfigFile, TheLeastThatIsNeededGivesTheDefaults) {
+  const Config config = read("cameras:\n  source: synthetic\n");
+  EXPECT_EQ(config.cameras.source, SourceKind::kSynthetic);
+  EXPECT_EQ(config.cameras.fps, 30);
+  EXPECT_EQ(config.matcher.disparities, 64);
+  EXPECT_EQ(config.matcher.uniqueness_ratio, matcher_preset("robust")->uniqueness_ratio);
+  EXPECT_EQ(config.lcm.prefix, "STEREO");
+  EXPECT_GE(config.worker_count(), 1);
+}
+
+TEST_F(ConfigFile, EveryKeyIsRead) {
+  const Config config = read(R"(
+cameras:
+  source: replay
+  fps: 12.5
+  max_skew_ms: 7
+  replay: {left: l.png, right: /abs/r.png, loop: false}
+  synthetic: {width: 320, height: 240, skew_ms: 3}
+calibration: calibration.yaml
+matcher:
+  preset: fast
+  min_disparity: 3
+  disparities: 50
+  window: 9
+  prefilter: xsobel
+  prefilter_cap: 20
+  texture_threshold: 11
+  uniqueness_ratio: 12
+  left_right_max_diff: 2
+  subpixel: false
+  median: 5
+  speckle_size: 50
+  speckle_max_diff: 2
+  implementation: sliding
+  isa: scalar
+workers: 3
+lcm: {url: "memq://", prefix: FRONT, rows_per_message: 8, spread: 0.5}
+log: {level: debug}
+)");
+  EXPECT_EQ(config.cameras.source, SourceKind::kReplay);
+  EXPECT_EQ(config.cameras.fps, 12.5);
+  EXPECT_EQ(config.cameras.pairing_tolerance_ns(), 7'000'000);
+  EXPECT_EQ(config.cameras.replay_left, directory_ / "l.png") << "relative to the configuration file";
+  EXPECT_EQ(config.cameras.replay_right, "/abs/r.png");
+  EXPECT_FALSE(config.cameras.replay_loop);
+  EXPECT_EQ(config.cameras.width, 320);
+  EXPECT_EQ(config.cameras.skew_ms, 3);
+  EXPECT_EQ(config.calibration, directory_ / "calibration.yaml");
+  EXPECT_EQ(config.matcher.min_disparity, 3);
+  EXPECT_EQ(config.matcher.disparities, 50);
+  EXPECT_EQ(config.matcher.window, 9);
+  EXPECT_EQ(config.matcher.prefilter_cap, 20);
+  EXPECT_EQ(config.matcher.texture_threshold, 11);
+  EXPECT_EQ(config.matcher.uniqueness_ratio, 12);
+  EXPECT_EQ(config.matcher.left_right_max_diff, 2);
+  EXPECT_FALSE(config.matcher.subpixel);
+  EXPECT_EQ(config.matcher.median, 5);
+  EXPECT_EQ(config.matcher.speckle_size, 50);
+  EXPECT_EQ(config.matcher.speckle_max_diff, 2);
+  EXPECT_EQ(config.matcher.implementation, Implementation::kSliding);
+  EXPECT_EQ(config.matcher.isa, Isa::kScalar);
+  EXPECT_EQ(config.worker_count(), 3);
+  EXPECT_EQ(config.lcm.url, "memq://");
+  EXPECT_EQ(config.lcm.prefix, "FRONT");
+  EXPECT_EQ(config.lcm.rows_per_message, 8);
+  EXPECT_EQ(config.lcm.spread, 0.5);
+  EXPECT_EQ(config.log_level, "debug");
+}
+
+TEST_F(ConfigFile, ToleranceIsHalfAFrameUnlessSet) {
+  EXPECT_EQ(read("cameras: {source: synthetic, fps: 50}").cameras.pairing_tolerance_ns(), 10'000'000);
+}
+
+struct BadConfig {
+  const char* text;
+  const char* error;
+};
+
+class BadConfigFile : public ConfigFile, public testing::WithParamInterface<BadConfig> {};
+
+TEST_P(BadConfigFile, IsToldInOneSentence) { EXPECT_EQ(error_of(GetParam().text), GetParam().error); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Config, BadConfigFile,
+    testing::Values(
+        BadConfig{"matcher: {}\n", "stereod.yaml: cameras: is missing"},
+        BadConfig{"cameras:\n  fps: 3\n", "stereod.yaml:2: cameras.source: is missing"},
+        BadConfig{"cameras:\n  source: webcam\n",
+                  "stereod.yaml:2: cameras.source: found 'webcam', allowed are replay and synthetic"},
+        BadConfig{"cameras:\n  source: synthetic\n  speed: 3\n",
+                  "stereod.yaml:3: cameras.speed: is not a known key; the nearest known key is 'fps'"},
+        BadConfig{"cameras:\n  source: synthetic\nmatcher:\n  dispariites: 64\n",
+                  "stereod.yaml:4: matcher.dispariites: is not a known key; the nearest known key is 'disparities'"},
+        BadConfig{"cameras: {source: synthetic}\nmatchr: {}\n",
+                  "stereod.yaml:2: matchr: is not a known key; the nearest known key is 'matcher'"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  disparities: 300\n",
+                  "stereod.yaml:3: matcher.disparities: found '300', allowed are whole numbers from 1 to 256"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  disparities: many\n",
+                  "stereod.yaml:3: matcher.disparities: found 'many', allowed are whole numbers from 1 to 256"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  disparities: 6.5\n",
+                  "stereod.yaml:3: matcher.disparities: found '6.5', allowed are whole numbers from 1 to 256"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  disparities: [1, 2]\n",
+                  "stereod.yaml:3: matcher.disparities: found a list, allowed is one value"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  window: 10\n",
+                  "stereod.yaml:3: matcher.window: found 10, allowed are odd numbers from 3 to 31"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  median: 4\n",
+                  "stereod.yaml:3: matcher.median: median is 4, allowed are 0 (off), 3 and 5"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  preset: quick\n",
+                  "stereod.yaml:3: matcher.preset: found 'quick', allowed are thesis, fast, robust"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  subpixel: maybe\n",
+                  "stereod.yaml:3: matcher.subpixel: found 'maybe', allowed are true and false"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher: 7\n",
+                  "stereod.yaml:2: matcher: found '7', allowed is a map of keys and values"},
+        BadConfig{"cameras: {source: synthetic}\nworkers: 3\nworkers: 4\n",
+                  "stereod.yaml:3: workers: stands here a second time; keep one of them"},
+        BadConfig{"cameras: {source: synthetic}\nlcm:\n  prefix: 'A B'\n",
+                  "stereod.yaml:3: lcm.prefix: found 'A B', allowed are 1 to 40 letters, digits, '_', '-' and '.'"},
+        BadConfig{"cameras: {source: synthetic}\nlog:\n  level: loud\n",
+                  "stereod.yaml:3: log.level: found 'loud', allowed are debug, info, warning and error"},
+        BadConfig{"cameras:\n  source: replay\n",
+                  "stereod.yaml: cameras.replay.left: found nothing to play, allowed are either left and right, two "
+                  "pictures, or folder, one with numbered pairs"},
+        BadConfig{"cameras:\n  source: replay\n  replay: {left: a.png}\n",
+                  "stereod.yaml:3: cameras.replay.left: found one of left and right, allowed are either left and "
+                  "right, two pictures, or folder, one with numbered pairs"},
+        BadConfig{"cameras: {source: synthetic, fps: -1}\n",
+                  "stereod.yaml:1: cameras.fps: found '-1', allowed are numbers from 0 to 240"},
+        BadConfig{"cameras: {source: synthetic, fps: .nan}\n",
+                  "stereod.yaml:1: cameras.fps: found '.nan', allowed are numbers from 0 to 240"},
+        BadConfig{"cameras: {source: synthetic\n",
+                  "stereod.yaml:2: not valid YAML: end of map flow not found"},
+        BadConfig{"- a\n- b\n", "stereod.yaml:1: expected a map of keys and values, found a list"},
+        BadConfig{"", "stereod.yaml:1: expected a map of keys and values, found nothing"}));
+
+TEST_F(ConfigFile, MissingFileAndFolderAreToldApart) {
+  EXPECT_EQ(file_error_of([] { read_config("/nowhere/stereod.yaml"); }),
+            "/nowhere/stereod.yaml: there is no such file");
+  EXPECT_EQ(file_error_of([&] { read_config(directory_.path()); }),
+            directory_.path().string() + ": this is a folder, not a file");
+}
+
+TEST(EditDistance, CountsSingleChanges) {
+  EXPECT_EQ(edit_distance("window", "window"), 0u);
+  EXPECT_EQ(edit_distance("windw", "window"), 1u);
+  EXPECT_EQ(edit_distance("", "abc"), 3u);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+}
+
+}  // namespace
+}  // namespace stereod

@@ -1,0 +1,283 @@
+#include "daemon/pipeline/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "core/match/frame_matcher.h"
+#include "daemon/capture/synthetic_scene.h"
+#include "daemon/service/status_reporter.h"
+#include "tests/support/allocation_counter.h"
+
+namespace stereod {
+namespace {
+
+constexpr Size kSize{160, 120};
+
+/// Keeps what is published, or only counts it.
+class FakeBus final : public MessageBus {
+ public:
+  explicit FakeBus(bool keep) : keep_(keep) {}
+
+  bool publish(const char* channel, const void* data, std::size_t size) noexcept override {
+    const std::lock_guard lock(mutex_);
+    if (std::strstr(channel, "_FRAME") != nullptr) ++frames_;
+    if (keep_ && std::strstr(channel, "_FRAME") != nullptr) decode(data, size, frame_messages_);
+    if (keep_ && std::strstr(channel, "_DISPARITY") != nullptr) decode(data, size, row_messages_);
+    if (keep_ && std::strstr(channel, "_STATUS") != nullptr) decode(data, size, status_messages_);
+    changed_.notify_all();
+    return !refuse_;
+  }
+
+  void wait_for_frames(int count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return frames_ >= count; });
+  }
+
+  std::vector<frame_t> frame_messages() {
+    const std::lock_guard lock(mutex_);
+    return frame_messages_;
+  }
+  std::vector<disparity_rows_t> row_messages() {
+    const std::lock_guard lock(mutex_);
+    return row_messages_;
+  }
+  std::vector<status_t> status_messages() {
+    const std::lock_guard lock(mutex_);
+    return status_messages_;
+  }
+  void refuse() { refuse_ = true; }
+
+ private:
+  template <typename Message>
+  static void decode(const void* data, std::size_t size, std::vector<Message>& messages) {
+    Message message{};
+    EXPECT_EQ(message.decode(data, 0, static_cast<int>(size)), static_cast<int>(size));
+    messages.push_back(std::move(message));
+  }
+
+  const bool keep_;
+  std::atomic<bool> refuse_{false};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int frames_ = 0;
+  std::vector<frame_t> frame_messages_;
+  std::vector<disparity_rows_t> row_messages_;
+  std::vector<status_t> status_messages_;
+};
+
+Config config_for(const char* preset, int workers) {
+  Config config;
+  config.cameras.source = SourceKind::kSynthetic;
+  config.cameras.fps = 0;
+  config.cameras.width = kSize.width;
+  config.cameras.height = kSize.height;
+  config.matcher = *matcher_preset(preset);
+  config.matcher.disparities = 40;
+  config.workers = workers;
+  config.lcm.rows_per_message = 7;
+  config.lcm.spread = 0;
+  return config;
+}
+
+/// The same matcher on the same picture, without pipeline.
+DisparityImage expected_disparity(const Config& config, std::int64_t frame) {
+  const SyntheticScene scene(kSize);
+  const int number = static_cast<int>(frame % scene.frames());
+  const SourceLayout layout{kSize, scene.render_left(number).view().stride(), 1};
+  const GreyImage raw_left = scene.render_left(number);
+  const GreyImage raw_right = scene.render_right(number);
+  GreyImage left(kSize);
+  GreyImage right(kSize);
+  RectifyMap(scene.calibration().left, layout).grey_rows(raw_left.row(0), {0, kSize.height}, left.view());
+  RectifyMap(scene.calibration().right, layout).grey_rows(raw_right.row(0), {0, kSize.height}, right.view());
+  WorkerPool pool(1);
+  DisparityImage disparity(kSize);
+  FrameMatcher(config.matcher, kSize, pool).match(left.view(), right.view(), disparity.view());
+  return disparity;
+}
+
+int wire_value(const disparity_rows_t& message, int row, int x) {
+  const std::size_t at = static_cast<std::size_t>(row * message.width + x);
+  if (message.bytes_per_value == 1) return message.data[at];
+  return message.data[2 * at] | message.data[2 * at + 1] << 8;
+}
+
+class PipelineOutput : public testing::TestWithParam<std::tuple<const char*, int>> {};
+
+TEST_P(PipelineOutput, IsEveryRowOfEveryFrameToTheBit) {
+  const Config config = config_for(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  constexpr int kFrames = 6;
+  FakeBus bus(true);
+  {
+    Pipeline pipeline(config, open_rig(config), bus);
+    bus.wait_for_frames(kFrames);
+    pipeline.stop();
+  }
+  std::map<std::int64_t, std::vector<int>> seen;  // frame: how often each of its rows came
+  std::map<std::int64_t, DisparityImage> expected;
+  for (const disparity_rows_t& message : bus.row_messages()) {
+    if (message.frame >= kFrames) continue;
+    if (expected.count(message.frame) == 0) {
+      expected.emplace(message.frame, expected_disparity(config, message.frame));
+    }
+    std::vector<int>& rows = seen[message.frame];
+    rows.resize(static_cast<std::size_t>(kSize.height));
+    ASSERT_EQ(message.size, message.width * message.row_count * message.bytes_per_value);
+    EXPECT_EQ(message.bytes_per_value, config.matcher.subpixel ? 2 : 1);
+    for (int row = 0; row < message.row_count; ++row) {
+      const int y = message.first_row + row;
+      ++rows.at(static_cast<std::size_t>(y));
+      for (int x = 0; x < kSize.width; ++x) {
+        const int want = expected.at(message.frame).at(x, y);
+        ASSERT_EQ(wire_value(message, row, x), want == kInvalidDisparity ? message.invalid : want)
+            << "frame " << message.frame << ", pixel (" << x << ", " << y << ")";
+      }
+    }
+  }
+  ASSERT_EQ(seen.size(), static_cast<std::size_t>(kFrames));
+  for (const auto& [frame, rows] : seen) EXPECT_EQ(rows, std::vector<int>(rows.size(), 1)) << "frame " << frame;
+
+  const std::vector<frame_t> frames = bus.frame_messages();
+  for (int i = 0; i < kFrames; ++i) {
+    const frame_t& frame = frames.at(static_cast<std::size_t>(i));
+    EXPECT_EQ(frame.frame, i);
+    EXPECT_EQ(frame.left_sequence, i) << "as fast as frames are matched, none is lost";
+    EXPECT_EQ(frame.right_sequence, i);
+    EXPECT_EQ(frame.skew_us, 0);
+    EXPECT_EQ(frame.rows, kSize.height);
+    int valid = 0;
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) valid += expected.at(i).at(x, y) != kInvalidDisparity ? 1 : 0;
+    }
+    EXPECT_FLOAT_EQ(frame.valid_fraction, static_cast<float>(valid) / (kSize.width * kSize.height));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pipeline, PipelineOutput,
+                         testing::Combine(testing::Values("thesis", "fast", "robust"), testing::Values(1, 2, 5)));
+
+TEST(Pipeline, MessagesOfAFrameShareItsTimeAndFollowItsRows) {
+  const Config config = config_for("fast", 2);
+  FakeBus bus(true);
+  Pipeline pipeline(config, open_rig(config), bus);
+  bus.wait_for_frames(3);
+  pipeline.stop();
+  const std::vector<frame_t> frames = bus.frame_messages();
+  for (const disparity_rows_t& rows : bus.row_messages()) {
+    if (rows.frame < 3) {
+      EXPECT_EQ(rows.utime, frames.at(static_cast<std::size_t>(rows.frame)).utime);
+    }
+  }
+}
+
+TEST(Pipeline, AllocatesNothingPerFrame) {
+  if (!AllocationCounter::supported()) GTEST_SKIP() << "allocations cannot be counted in this build";
+  for (const char* preset : {"thesis", "fast", "robust"}) {
+    for (const Implementation implementation :
+         {Implementation::kNaive, Implementation::kSliding, Implementation::kSimd}) {
+      Config config = config_for(preset, 2);
+      config.matcher.implementation = implementation;
+      config.matcher.disparities = 16;
+      FakeBus bus(false);
+      Pipeline pipeline(config, open_rig(config), bus);
+      bus.wait_for_frames(3);
+      const AllocationCounter counter;
+      bus.wait_for_frames(20);
+      EXPECT_EQ(counter.count(), 0u) << preset << ", " << name_of(implementation);
+    }
+  }
+}
+
+TEST(Pipeline, StopsAtAnyMoment) {
+  for (int i = 0; i < 20; ++i) {
+    const Config config = config_for("robust", 3);
+    FakeBus bus(false);
+    Pipeline pipeline(config, open_rig(config), bus);
+    if (i > 0) bus.wait_for_frames(i / 4);
+    if (i % 2 == 0) pipeline.stop();
+  }
+}
+
+TEST(Pipeline, CountsWhatTheNetworkRefuses) {
+  const Config config = config_for("fast", 1);
+  FakeBus bus(false);
+  bus.refuse();
+  Pipeline pipeline(config, open_rig(config), bus);
+  bus.wait_for_frames(3);
+  const PipelineFigures figures = pipeline.take_figures();
+  EXPECT_GE(figures.published.messages_refused, 2 * (120 + 6) / 7);
+}
+
+TEST(Pipeline, ARowBlockTooLargeForAMessageIsRefused) {
+  Config config = config_for("fast", 1);
+  config.lcm.rows_per_message = 300;
+  FakeBus bus(false);
+  try {
+    Pipeline pipeline(config, open_rig(config), bus);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "lcm.rows_per_message: found 300, but rows of 320 bytes are sent and a message holds 65243, so allowed "
+                 "are 1 to 203");
+  }
+}
+
+TEST(Pipeline, FramesTooFarApartInTimeNeverMakeAPair) {
+  Config config = config_for("fast", 1);
+  config.cameras.fps = 100;
+  config.cameras.max_skew_ms = 1;
+  config.cameras.skew_ms = 4;
+  FakeBus bus(false);
+  Pipeline pipeline(config, open_rig(config), bus);
+  PipelineFigures figures;
+  while (figures.left.frames < 10 || figures.right.frames < 10) figures = pipeline.take_figures();
+  EXPECT_EQ(figures.pairing.pairs, 0);
+  EXPECT_GT(figures.pairing.left_without_partner, 0);
+}
+
+TEST(StatusReporter, SaysStartingFirstAndThenStreaming) {
+  const Config config = config_for("fast", 1);
+  FakeBus bus(true);
+  Pipeline pipeline(config, open_rig(config), bus);
+  StatusReporter reporter(pipeline, bus);
+  reporter.report();
+  bus.wait_for_frames(2);
+  reporter.report();
+  const std::vector<status_t> messages = bus.status_messages();
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(messages[0].state, "starting");
+  EXPECT_EQ(messages[1].state, "streaming");
+  EXPECT_EQ(messages[1].reason, "");
+  EXPECT_GE(messages[1].frames_published, 2);
+  EXPECT_EQ(messages[1].left.device, "synthetic scene");
+  EXPECT_EQ(messages[1].left.decode_errors, 0);
+  EXPECT_GT(messages[1].rss_mb, 1);
+}
+
+PipelineFigures figures(std::int64_t left, std::int64_t right, std::int64_t pairs, std::int64_t published) {
+  PipelineFigures result;
+  result.left.frames = left;
+  result.right.frames = right;
+  result.pairing.pairs = pairs;
+  result.published.frames = published;
+  return result;
+}
+
+TEST(JudgeState, NamesWhatIsMissing) {
+  const PipelineFigures before = figures(10, 10, 10, 10);
+  EXPECT_EQ(judge_state(figures(10, 10, 10, 10), before, true).reason, "no frames from either camera");
+  EXPECT_EQ(judge_state(figures(10, 20, 10, 10), before, true).reason, "no frames from the left camera");
+  EXPECT_EQ(judge_state(figures(20, 10, 10, 10), before, true).name, "waiting_for_cameras");
+  EXPECT_EQ(judge_state(figures(20, 20, 10, 10), before, true).name, "degraded");
+  EXPECT_EQ(judge_state(figures(20, 20, 20, 20), before, true).name, "streaming");
+  EXPECT_EQ(judge_state(figures(20, 20, 20, 20), before, false).name, "uncalibrated");
+}
+
+}  // namespace
+}  // namespace stereod

@@ -1,0 +1,305 @@
+// stereo-match as a user runs it.
+#include <gtest/gtest.h>
+#include <regex.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/calibration.h"
+#include "daemon/config/calibration_file.h"
+#include "daemon/imagefile/pfm_file.h"
+#include "daemon/imagefile/read_image.h"
+#include "daemon/imagefile/write_image.h"
+#include "tests/support/picture_files.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_directory.h"
+
+namespace stereod {
+namespace {
+
+constexpr Size kSize{160, 120};
+constexpr int kTrueDisparity = 7;
+
+/// Whether the text has a place that the POSIX extended regular expression fits.
+bool contains(const std::string& text, const char* pattern) {
+  regex_t compiled;
+  if (::regcomp(&compiled, pattern, REG_EXTENDED | REG_NOSUB) != 0) return false;
+  const bool found = ::regexec(&compiled, text.c_str(), 0, nullptr, 0) == 0;
+  ::regfree(&compiled);
+  return found;
+}
+
+CameraCalibration pinhole(Size size) {
+  CameraCalibration camera;
+  camera.camera.image = size;
+  camera.camera.fx = camera.camera.fy = 100;
+  camera.camera.cx = (size.width - 1) / 2.0;
+  camera.camera.cy = (size.height - 1) / 2.0;
+  camera.projection = {100, 100, camera.camera.cx, camera.camera.cy};
+  return camera;
+}
+
+class StereoMatch : public testing::Test {
+ protected:
+  StereoMatch() {
+    write_pair(kSize);
+    // The truth: 7 px everywhere, × 16; not known in the left columns, whose partners are outside.
+    GreyImage truth(kSize);
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 20; x < kSize.width; ++x) truth.at(x, y) = 16 * kTrueDisparity;
+    }
+    write_png(directory_ / "truth.png", truth.view());
+  }
+
+  /// A plane of random grey values at kTrueDisparity.
+  void write_pair(Size size) {
+    const std::vector<int> texture = some_samples((size.width + kTrueDisparity) * size.height, 255);
+    GreyImage left(size);
+    GreyImage right(size);
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        const int row = y * (size.width + kTrueDisparity);
+        left.at(x, y) = static_cast<std::uint8_t>(texture[static_cast<std::size_t>(row + x)]);
+        right.at(x, y) =
+            static_cast<std::uint8_t>(texture[static_cast<std::size_t>(row + x + kTrueDisparity)]);
+      }
+    }
+    write_png(directory_ / "left.png", left.view());
+    write_png(directory_ / "right.png", right.view());
+  }
+
+  std::string file(const std::string& name) const { return (directory_ / name).string(); }
+
+  ProgramRun match(const std::vector<std::string>& arguments) const {
+    return run_program(std::filesystem::path(STEREOD_BIN_DIR) / "stereo-match", arguments, directory_.path());
+  }
+  /// The same with the pair in front.
+  ProgramRun match_pair(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {file("left.png"), file("right.png")});
+    return match(arguments);
+  }
+
+  /// Exit status 2, nothing on stdout, and one line on stderr that holds all `parts`.
+  static void expect_refused(const ProgramRun& run, const std::vector<std::string>& parts) {
+    EXPECT_EQ(run.status, 2) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(run.err.rfind("stereo-match: ", 0), 0U) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    for (const std::string& part : parts)
+      EXPECT_NE(run.err.find(part), std::string::npos) << part << "\nin: " << run.err;
+  }
+
+  static void expect_good(const ProgramRun& run) {
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.err, "");
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(StereoMatch, WritesDisparitiesInBothFormats) {
+  expect_good(match_pair({"-o", file("out.pfm"), "--disparities", "16"}));
+  expect_good(match_pair({"-o", file("out.png"), "--disparities", "16"}));
+  const Image<float> pixels = read_pfm(directory_ / "out.pfm");
+  const Image<std::uint16_t> kitti = read_grey16(directory_ / "out.png");
+  ASSERT_EQ(pixels.size(), kSize);
+  ASSERT_EQ(kitti.size(), kSize);
+  EXPECT_NEAR(pixels.at(90, 60), kTrueDisparity, 0.1);
+  EXPECT_NEAR(kitti.at(90, 60), 256 * kTrueDisparity, 26);
+  EXPECT_TRUE(std::isinf(pixels.at(0, 0))) << "no window there";
+  EXPECT_EQ(kitti.at(0, 0), 0);
+}
+
+TEST_F(StereoMatch, EveryImplementationWritesTheSame) {
+  const std::vector<std::string> common{"--preset", "thesis", "--disparities", "16", "--window", "9"};
+  std::vector<Bytes> results;
+  for (const char* implementation : {"naive", "sliding", "simd"}) {
+    for (const char* threads : {"1", "3"}) {
+      std::vector<std::string> arguments = common;
+      arguments.insert(arguments.end(),
+                       {"--implementation", implementation, "--threads", threads, "-o", file("out.pfm")});
+      expect_good(match_pair(arguments));
+      results.push_back(bytes_in(directory_ / "out.pfm"));
+    }
+  }
+  for (const Bytes& result : results) EXPECT_EQ(result, results.front());
+}
+
+TEST_F(StereoMatch, ComparesWithGroundTruth) {
+  const ProgramRun run = match_pair(
+      {"--preset", "thesis", "--disparities", "16", "--ground-truth", file("truth.png"), "--gt-scale", "16"});
+  expect_good(run);
+  EXPECT_NE(run.out.find("against " + file("truth.png")), std::string::npos) << run.out;
+  EXPECT_TRUE(contains(run.out, "pixels +16800 +[0-9]+")) << run.out;
+  EXPECT_TRUE(contains(run.out, "off by more than 1 px +[0-9]+[.][0-9][0-9] % +0[.]00 %")) << run.out;
+  EXPECT_TRUE(contains(run.out, "mean absolute error +0[.][0-9][0-9][0-9] px")) << run.out;
+}
+
+TEST_F(StereoMatch, ScaleOfTheGroundTruthMatters) {
+  const ProgramRun run =
+      match_pair({"--disparities", "16", "--ground-truth", file("truth.png"), "--gt-scale", "8"});
+  expect_good(run);
+  EXPECT_TRUE(contains(run.out, "off by more than 2 px +100[.]00 % +100[.]00 %")) << run.out;
+}
+
+TEST_F(StereoMatch, MeasuresTime) {
+  const ProgramRun run = match_pair({"--repeat", "3"});
+  expect_good(run);
+  EXPECT_TRUE(contains(run.out, "^median [0-9]+[.][0-9]+ ms, minimum [0-9]+[.][0-9]+ ms\n$")) << run.out;
+}
+
+TEST_F(StereoMatch, PaintsAPicture) {
+  expect_good(match_pair({"--color", file("view.png")}));
+  const ColorImage view = read_color(directory_ / "view.png");
+  EXPECT_EQ(view.height(), kSize.height);
+  EXPECT_GT(view.width(), kSize.width) << "the scale bar";
+}
+
+TEST_F(StereoMatch, RectifiesFirst) {
+  Calibration calibration;
+  calibration.image = kSize;
+  calibration.left = pinhole(kSize);
+  calibration.right = pinhole(kSize);
+  calibration.right.camera.cy += 3;  // the right camera looks 3 rows too far up
+  calibration.baseline_m = 0.07;
+  write_calibration(directory_ / "rig.yaml", calibration);
+  expect_good(match_pair({"--calibration", file("rig.yaml"), "--rectified", file("l.png"), file("r.png"),
+                          "--color", file("view.png")}));
+  const GreyImage right = read_grey(directory_ / "right.png");
+  const GreyImage rectified = read_grey(directory_ / "r.png");
+  const GreyImage left = read_grey(directory_ / "left.png");
+  const GreyImage rectified_left = read_grey(directory_ / "l.png");
+  for (int y = 0; y < kSize.height - 3; ++y) {
+    EXPECT_TRUE(std::equal(left.row(y), left.row(y) + kSize.width, rectified_left.row(y))) << y;
+    EXPECT_TRUE(std::equal(right.row(y + 3), right.row(y + 3) + kSize.width, rectified.row(y))) << y;
+  }
+}
+
+TEST_F(StereoMatch, FlagsBeatPresetBeatsConfig) {
+  // With 5 disparities the true one, 7, is not among them.
+  write_bytes(directory_ / "stereod.yaml",
+              bytes_of("cameras: {source: synthetic}\nmatcher: {disparities: 5}\n"));
+  const auto middle = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"-o", file("out.pfm"), "--config", file("stereod.yaml")});
+    expect_good(match_pair(arguments));
+    return read_pfm(directory_ / "out.pfm").at(90, 60);
+  };
+  EXPECT_FALSE(std::abs(middle({}) - kTrueDisparity) < 1);
+  EXPECT_NEAR(middle({"--disparities", "9"}), kTrueDisparity, 0.1);
+  EXPECT_NEAR(middle({"--preset", "fast"}), kTrueDisparity, 0.1);
+  EXPECT_FALSE(std::abs(middle({"--preset", "fast", "--disparities", "4"}) - kTrueDisparity) < 1);
+  EXPECT_NEAR(middle({"--disparities", "4", "--min-disparity", "6"}), kTrueDisparity, 0.1);
+}
+
+TEST_F(StereoMatch, HelpsWhenAsked) {
+  const ProgramRun run = match({"--help"});
+  expect_good(run);
+  for (const char* flag : {"LEFT", "--output", "--preset", "--calibration", "--ground-truth", "--repeat"}) {
+    EXPECT_NE(run.out.find(flag), std::string::npos) << flag;
+  }
+}
+
+TEST_F(StereoMatch, RefusesWrongUsage) {
+  expect_refused(match({}), {"LEFT is required", "--help"});
+  expect_refused(match({file("left.png")}), {"RIGHT is required"});
+  expect_refused(match_pair({}), {"there is nothing to do; ask for -o, --color"});
+  expect_refused(match_pair({"--nonsense"}), {"--nonsense"});
+  expect_refused(match_pair({"--repeat", "many"}), {"--repeat", "many"});
+  expect_refused(match_pair({"--repeat", "0"}), {"--repeat: is 0; 1 to 1000000 is allowed"});
+  expect_refused(match_pair({"--repeat", "1", "--threads", "0"}), {"--threads: is 0; 1 to 256 is allowed"});
+  expect_refused(match_pair({"--repeat", "1", "--preset", "best"}),
+                 {"--preset: 'best'", "thesis, fast, robust"});
+  expect_refused(match_pair({"--repeat", "1", "--cost", "ncc"}), {"--cost: 'ncc'", "sad, ssd, mad"});
+  expect_refused(match_pair({"--repeat", "1", "--isa", "mmx"}), {"--isa: 'mmx'", "avx2"});
+  expect_refused(match_pair({"--repeat", "1", "--implementation", "gpu"}),
+                 {"--implementation: 'gpu'", "simd"});
+  expect_refused(match_pair({"--repeat", "1", "--gt-scale", "4"}), {"--gt-scale"});
+  expect_refused(match_pair({"--ground-truth", file("truth.png"), "--gt-scale", "0"}), {"--gt-scale"});
+}
+
+TEST_F(StereoMatch, RefusesImpossibleMatcherSettings) {
+  const auto refused = [&](std::vector<std::string> arguments, const std::vector<std::string>& parts) {
+    arguments.insert(arguments.end(), {"--repeat", "1"});
+    expect_refused(match_pair(arguments), parts);
+  };
+  refused({"--window", "4"}, {"window", "4"});
+  refused({"--window", "33"}, {"window", "33"});
+  refused({"--disparities", "0"}, {"disparities", "0"});
+  refused({"--disparities", "257"}, {"disparities", "257"});
+  refused({"--min-disparity", "-1"}, {"min_disparity", "-1"});
+  refused({"--cost", "ssd", "--implementation", "simd"}, {"cost"});
+}
+
+TEST_F(StereoMatch, RefusesBadPictures) {
+  const auto refused = [&](const std::string& left, const std::string& right,
+                           const std::vector<std::string>& parts) {
+    expect_refused(match({left, right, "-o", file("out.pfm")}), parts);
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "out.pfm"));
+  };
+  refused(file("none.png"), file("right.png"), {file("none.png") + ": the file does not exist"});
+  refused(file("left.png"), file("none.png"), {file("none.png") + ": the file does not exist"});
+  refused(file("left.png"), directory_.path().string(), {directory_.path().string() + ": is a directory"});
+  write_bytes(directory_ / "empty.png", {});
+  refused(file("empty.png"), file("right.png"), {file("empty.png") + ": the file is empty"});
+  write_bytes(directory_ / "text.png", bytes_of("not a picture"));
+  refused(file("text.png"), file("right.png"), {file("text.png") + ": is no picture that is known here"});
+  Bytes half = bytes_in(directory_ / "right.png");
+  half.resize(half.size() / 2);
+  write_bytes(directory_ / "half.png", half);
+  refused(file("left.png"), file("half.png"), {file("half.png") + ": the PNG file is truncated"});
+  write_png(directory_ / "small.png", GreyImage(150, 120).view());
+  refused(file("left.png"), file("small.png"),
+          {file("small.png") + ": has 150×120 pixels", file("left.png") + " has 160×120"});
+}
+
+TEST_F(StereoMatch, RefusesUnreadablePictures) {
+  if (::geteuid() == 0) {
+    // Nothing is forbidden to root, but the start of its own memory is not there.
+    expect_refused(match({"/proc/self/mem", file("right.png"), "--repeat", "1"}),
+                   {"/proc/self/mem: the file cannot be read ("});
+    return;
+  }
+  std::filesystem::permissions(directory_ / "left.png", std::filesystem::perms::none);
+  expect_refused(match_pair({"--repeat", "1"}),
+                 {file("left.png") + ": the file cannot be read (Permission denied)"});
+}
+
+TEST_F(StereoMatch, RefusesOutputsThatItCannotWrite) {
+  expect_refused(match_pair({"-o", file("out.tif")}),
+                 {file("out.tif") + ": disparities are written to files named .pfm or .png"});
+  expect_refused(match_pair({"-o", file("no/out.pfm")}),
+                 {file("no/out.pfm") + ": the directory to write to does not exist"});
+  expect_refused(match_pair({"--color", file("view.jpg")}), {file("view.jpg"), ".png"});
+  expect_refused(match_pair({"--rectified", file("l.png"), file("r.bmp")}), {file("r.bmp"), ".png"});
+}
+
+TEST_F(StereoMatch, RefusesBadGroundTruth) {
+  expect_refused(match_pair({"--ground-truth", file("none.png")}),
+                 {file("none.png") + ": the file does not exist"});
+  write_png(directory_ / "small.png", GreyImage(150, 120).view());
+  expect_refused(match_pair({"--ground-truth", file("small.png")}),
+                 {file("small.png") + ": has 150×120 pixels", file("left.png") + " has 160×120"});
+}
+
+TEST_F(StereoMatch, RefusesBadCalibrationAndConfig) {
+  expect_refused(match_pair({"--repeat", "1", "--calibration", file("none.yaml")}), {file("none.yaml")});
+  expect_refused(match_pair({"--repeat", "1", "--config", file("none.yaml")}), {file("none.yaml")});
+  write_bytes(directory_ / "bad.yaml", bytes_of("cameras: {source: synthetic}\nmatcher: {windw: 5}\n"));
+  expect_refused(match_pair({"--repeat", "1", "--config", file("bad.yaml")}),
+                 {file("bad.yaml") + ":2", "windw"});
+
+  Calibration calibration;
+  calibration.image = {320, 240};
+  calibration.left = calibration.right = pinhole(calibration.image);
+  calibration.baseline_m = 0.07;
+  write_calibration(directory_ / "rig.yaml", calibration);
+  expect_refused(match_pair({"--repeat", "1", "--calibration", file("rig.yaml")}),
+                 {file("rig.yaml") + ": is for 320×240 pixels", file("left.png") + " has 160×120"});
+}
+
+}  // namespace
+}  // namespace stereod

@@ -1,0 +1,211 @@
+// The daemon as a user runs it, and a receiver in another process.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "daemon/imagefile/pfm_file.h"
+#include "daemon/tools/tap/frame_assembler.h"
+#include "daemon/tools/tap/frame_listener.h"
+#include "daemon/tools/tap/lcm_receiver.h"
+#include "tests/support/network.h"
+#include "tests/support/recorded_pairs.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_directory.h"
+
+namespace stereod {
+namespace {
+
+constexpr Size kSize{320, 240};
+constexpr int kPairs = 4;
+constexpr const char* kUrl = "udpm://239.255.76.67:17667?ttl=0";  // a port of the tests' own
+
+const std::filesystem::path kBin = STEREOD_BIN_DIR;
+
+class StereodTest : public testing::Test {
+ protected:
+  std::filesystem::path write_config(const std::string& matcher, const std::string& more = "") {
+    const std::filesystem::path file = directory_ / "stereod.yaml";
+    std::ofstream(file) << "cameras:\n  source: replay\n  fps: 10\n  replay: {folder: ., loop: true}\n"
+                        << "calibration: calibration.yaml\n"
+                        << "matcher: " << matcher << "\n"
+                        << "lcm: {url: \"" << kUrl << "\", prefix: E2E}\n"
+                        << more;
+    return file;
+  }
+
+  ProgramRun run_stereod(const std::vector<std::string>& arguments) {
+    return run_program(kBin / "stereod", arguments, directory_.path());
+  }
+
+  TemporaryDirectory directory_;
+};
+
+/// What stereo-match makes of a recorded pair.
+Image<float> matched_by_tool(const std::filesystem::path& folder, int number, const std::vector<std::string>& options) {
+  const std::filesystem::path out = folder / "expected.pfm";
+  std::vector<std::string> arguments{recorded_left(folder, number).string(), recorded_right(folder, number).string(),
+                                     "-o", out.string(), "--calibration", (folder / "calibration.yaml").string()};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const ProgramRun run = run_program(kBin / "stereo-match", arguments, folder);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return read_pfm(out);
+}
+
+struct Setting {
+  const char* name;
+  const char* matcher;
+  std::vector<std::string> options;
+};
+
+class StereodRows : public StereodTest, public testing::WithParamInterface<Setting> {};
+
+TEST_P(StereodRows, ArriveInAnotherProcessAsStereoMatchMakesThem) {
+  if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
+  write_recorded_pairs(directory_.path(), kSize, kPairs);
+  std::map<std::int64_t, Image<float>> expected;
+  for (int i = 0; i < kPairs; ++i) expected.emplace(i, matched_by_tool(directory_.path(), i, GetParam().options));
+
+  int frames = 0;
+  FrameAssembler assembler([&](AssembledFrame&& frame) {
+    ASSERT_TRUE(frame.complete()) << "frame " << frame.frame;
+    ++frames;
+    const Image<float>& want = expected.at(frame.summary->left_sequence % kPairs);
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        const int units = frame.disparity.at(x, y);
+        const float got =
+            units == kInvalidDisparity ? INFINITY : static_cast<float>(units) / static_cast<float>(frame.units_per_pixel);
+        ASSERT_EQ(got, want.at(x, y)) << "frame " << frame.frame << ", pixel (" << x << ", " << y << ")";
+      }
+    }
+  });
+  LcmReceiver receiver(kUrl);
+  TapOptions tap;
+  tap.prefix = "E2E";
+  listen_for_frames(receiver, tap, assembler);
+  ChildProgram stereod(kBin / "stereod", {"--config", write_config(GetParam().matcher).string()}, directory_.path());
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (frames < 3 * kPairs && !HasFailure() && std::chrono::steady_clock::now() < deadline) {
+    receiver.receive(std::chrono::milliseconds(100));
+  }
+  stereod.send(SIGTERM);
+  const ProgramRun run = stereod.wait();
+  assembler.finish();
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_GE(frames, 3 * kPairs) << run.err;
+  EXPECT_EQ(assembler.counts().rows_lost, 0);
+  EXPECT_EQ(assembler.counts().messages_ignored, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    E2e, StereodRows,
+    testing::Values(Setting{"thesis", "{preset: thesis, disparities: 48}", {"--preset", "thesis", "--disparities", "48"}},
+                    Setting{"robust", "{preset: robust, disparities: 64}", {"--preset", "robust"}}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST_F(StereodTest, PlaysARecordingOnceAndEnds) {
+  if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
+  write_recorded_pairs(directory_.path(), kSize, kPairs);
+  const std::filesystem::path file = directory_ / "once.yaml";
+  std::ofstream(file) << "cameras: {source: replay, fps: 0, replay: {folder: ., loop: false}}\nlcm: {url: \"" << kUrl
+                      << "\", prefix: E2E}\n";
+  int frames = 0;
+  FrameAssembler assembler([&](AssembledFrame&& frame) {
+    EXPECT_EQ(frame.summary->left_sequence, frames);
+    ++frames;
+  });
+  LcmReceiver receiver(kUrl);
+  TapOptions tap;
+  tap.prefix = "E2E";
+  listen_for_frames(receiver, tap, assembler);
+  ChildProgram stereod(kBin / "stereod", {"--config", file.string()}, directory_.path());
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (frames < kPairs && std::chrono::steady_clock::now() < deadline) {
+    receiver.receive(std::chrono::milliseconds(100));
+  }
+  EXPECT_EQ(stereod.wait().status, 0);
+  EXPECT_EQ(frames, kPairs);
+}
+
+TEST_F(StereodTest, InterruptEndsItCleanly) {
+  if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
+  const std::filesystem::path file = directory_ / "demo.yaml";
+  std::ofstream(file) << "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nlcm: {url: \"" << kUrl
+                      << "\", prefix: E2E}\n";
+  ChildProgram stereod(kBin / "stereod", {"--config", file.string()}, directory_.path());
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (stereod.err_so_far().find("streaming") == std::string::npos && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  stereod.send(SIGINT);
+  const ProgramRun run = stereod.wait();
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.err.find("<6>SIGINT came; stopping"), std::string::npos) << run.err;
+}
+
+TEST_F(StereodTest, SaysItsVersion) {
+  const ProgramRun run = run_stereod({"--version"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.out.rfind("stereod ", 0), 0u) << run.out;
+}
+
+TEST_F(StereodTest, ChecksAConfigurationWithoutStarting) {
+  write_recorded_pairs(directory_.path(), kSize, 1);
+  const std::string file = write_config("{preset: robust}").string();
+  const ProgramRun run = run_stereod({"--check-config", "--config", file});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out, file + ": nothing wrong with it\n");
+}
+
+struct BadStart {
+  const char* name;
+  const char* config;
+  const char* complaint;  // part of the sentence
+};
+
+class StereodBadStart : public StereodTest, public testing::WithParamInterface<BadStart> {};
+
+// With --check-config and without: the same sentence, the status that keeps systemd from trying again.
+TEST_P(StereodBadStart, IsOneSentenceAndStatus78) {
+  write_recorded_pairs(directory_.path(), kSize, 1);
+  const std::filesystem::path file = directory_ / "bad.yaml";
+  std::ofstream(file) << GetParam().config;
+  for (const bool check : {true, false}) {
+    std::vector<std::string> arguments{"--config", file.string()};
+    if (check) arguments.push_back("--check-config");
+    const ProgramRun run = run_stereod(arguments);
+    EXPECT_EQ(run.status, 78) << run.err;
+    EXPECT_NE(run.err.find(GetParam().complaint), std::string::npos) << run.err;
+    EXPECT_EQ(run.err.rfind("<3>", 0), 0u) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    E2e, StereodBadStart,
+    testing::Values(
+        BadStart{"UnknownKey", "cameras: {source: synthetic}\nmatcher: {windw: 3}\n",
+                 "bad.yaml:2: matcher.windw: is not a known key; the nearest known key is 'window'"},
+        BadStart{"NotYaml", "cameras: [\n", "not valid YAML"},
+        BadStart{"MissingPicture", "cameras: {source: replay, replay: {left: gone.png, right: right_00.png}}\n", "gone.png"},
+        BadStart{"OtherCalibrationSize",
+                 "cameras: {source: synthetic}\ncalibration: calibration.yaml\n",
+                 "calibration.yaml: the calibration is for images of 320×240, the cameras give 640×480"},
+        BadStart{"MissingCalibration", "cameras: {source: synthetic}\ncalibration: gone.yaml\n", "gone.yaml"},
+        BadStart{"ImpossibleIsa", "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nmatcher: {isa: neon}\n",
+                 "isa is neon, which this CPU or this build does not have"},
+        BadStart{"TooManyRows", "cameras: {source: synthetic}\nlcm: {rows_per_message: 200}\n",
+                 "lcm.rows_per_message: found 200"},
+        BadStart{"BadLcmUrl", "cameras: {source: synthetic}\nlcm: {url: \"carrier-pigeon://\"}\n", "carrier-pigeon"}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+}  // namespace
+}  // namespace stereod

@@ -1,0 +1,150 @@
+// The rectification table against the two OpenCV functions it replaces.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <random>
+#include <vector>
+
+#include "core/rectify_map.h"
+
+namespace stereod {
+namespace {
+
+struct Maps {
+  cv::Mat x, y;
+};
+
+Maps opencv_maps(const CameraCalibration& c, int type) {
+  const CameraModel& m = c.camera;
+  const RectifiedProjection& p = c.projection;
+  const cv::Mat camera = (cv::Mat_<double>(3, 3) << m.fx, 0, m.cx, 0, m.fy, m.cy, 0, 0, 1);
+  const cv::Mat lens = (cv::Mat_<double>(1, 8) << m.k1, m.k2, m.p1, m.p2, m.k3, m.k4, m.k5, m.k6);
+  const cv::Mat projection = (cv::Mat_<double>(3, 3) << p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1);
+  const cv::Matx33d rotation(c.rotation.m.data());
+  Maps maps;
+  cv::initUndistortRectifyMap(camera, lens, rotation, projection, {m.image.width, m.image.height}, type,
+                              maps.x, maps.y);
+  return maps;
+}
+
+// Where pixel (x, y) of the rectified image lies in the source, by the same steps as the table takes.
+Point2 source_of(const CameraCalibration& c, int x, int y) {
+  const RectifiedProjection& p = c.projection;
+  const Vector3 ray = transposed(c.rotation) * Vector3{(x - p.cx) / p.fx, (y - p.cy) / p.fy, 1};
+  return c.camera.to_pixel(c.camera.distort({ray.x / ray.z, ray.y / ray.z}));
+}
+
+// Cameras of every distortion model, each turned at random by up to a few degrees.
+std::vector<CameraCalibration> cameras() {
+  std::mt19937 random(20240611);
+  const auto within = [&](double reach) {
+    return reach * (2 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 1);
+  };
+  struct Lens {
+    double k1, k2, p1, p2, k3, k4, k5, k6;
+  };
+  const Lens lenses[] = {
+      {0, 0, 0, 0, 0, 0, 0, 0},                            // none
+      {-0.28, 0.09, 0, 0, 0, 0, 0, 0},                     // barrel
+      {0.12, 0.03, 0.001, -0.002, 0, 0, 0, 0},             // pincushion, off centre
+      {-0.35, 0.14, 0.0006, -0.0004, -0.02, 0, 0, 0},      // five coefficients
+      {5.1, 2.2, -0.001, 0.002, 0.1, 5.4, 3.6, 0.4},       // rational
+      {-0.1, 0.02, -0.004, 0.005, 0.01, 0.2, -0.05, 0.03}  // rational, off centre
+  };
+  std::vector<CameraCalibration> result;
+  for (const Size size : {Size{640, 480}, Size{321, 243}}) {
+    for (const Lens& l : lenses) {
+      for (int turn = 0; turn < 4; ++turn) {
+        CameraCalibration c;
+        const double w = size.width, h = size.height;
+        c.camera = {size, w * (0.85 + within(0.1)), w * (0.85 + within(0.1)), w / 2 + within(0.03 * w),
+                    h / 2 + within(0.03 * h)};
+        c.camera.k1 = l.k1, c.camera.k2 = l.k2, c.camera.p1 = l.p1, c.camera.p2 = l.p2;
+        c.camera.k3 = l.k3, c.camera.k4 = l.k4, c.camera.k5 = l.k5, c.camera.k6 = l.k6;
+        c.rotation = rotation_about({within(0.1), within(0.1), within(0.1)});
+        const double f = w * (0.8 + within(0.1));
+        c.projection = {f, f, w / 2 + within(0.05 * w), h / 2 + within(0.05 * h)};
+        result.push_back(c);
+      }
+    }
+  }
+  return result;
+}
+
+TEST(RectifyOpenCv, SourceCoordinatesAreTheSameToAThousandthOfAPixel) {
+  for (const CameraCalibration& c : cameras()) {
+    const Maps maps = opencv_maps(c, CV_32FC1);
+    for (int y = 0; y < c.camera.image.height; ++y) {
+      for (int x = 0; x < c.camera.image.width; ++x) {
+        const Point2 own = source_of(c, x, y);
+        ASSERT_NEAR(own.x, maps.x.at<float>(y, x), 1e-3) << x << ' ' << y;
+        ASSERT_NEAR(own.y, maps.y.at<float>(y, x), 1e-3) << x << ' ' << y;
+      }
+    }
+  }
+}
+
+bool close_to_a_tie(float coordinate) {
+  const float fraction = coordinate - std::floor(coordinate);
+  return std::abs(fraction - 0.5F) < 1e-3F;
+}
+
+TEST(RectifyOpenCv, GreyAndColorAreTheSamePixelsAsRemapTakes) {
+  cv::RNG random(7);
+  long compared = 0, outside = 0;
+  for (const CameraCalibration& c : cameras()) {
+    const Size size = c.camera.image;
+    const Maps maps = opencv_maps(c, CV_32FC1);
+    cv::Mat grey(size.height, size.width, CV_8UC1), color(size.height, size.width, CV_8UC3);
+    random.fill(grey, cv::RNG::UNIFORM, 1, 256);
+    random.fill(color, cv::RNG::UNIFORM, 1, 256);
+    cv::Mat grey_want, color_want;
+    cv::remap(grey, grey_want, maps.x, maps.y, cv::INTER_NEAREST);
+    cv::remap(color, color_want, maps.x, maps.y, cv::INTER_NEAREST);
+
+    GreyImage grey_out(size);
+    ColorImage color_out(size);
+    const RowRange all{0, size.height};
+    RectifyMap(c, {size, static_cast<std::ptrdiff_t>(grey.step[0]), 1})
+        .grey_rows(grey.data, all, grey_out.view());
+    RectifyMap(c, {size, static_cast<std::ptrdiff_t>(color.step[0]), 3})
+        .color_rows(color.data, all, color_out.view());
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        if (close_to_a_tie(maps.x.at<float>(y, x)) || close_to_a_tie(maps.y.at<float>(y, x))) continue;
+        ++compared;
+        outside += grey_out.at(x, y) == 0 ? 1 : 0;
+        ASSERT_EQ(grey_out.at(x, y), grey_want.at<std::uint8_t>(y, x)) << x << ' ' << y;
+        const auto want = color_want.at<cv::Vec3b>(y, x);
+        ASSERT_EQ(color_out.at(x, y), (Rgb{want[0], want[1], want[2]})) << x << ' ' << y;
+      }
+    }
+  }
+  EXPECT_GT(compared, 8'000'000);  // ties are rare
+  EXPECT_GT(outside, 100'000);     // and some of the pixels do lie outside the source
+}
+
+TEST(RectifyOpenCv, UndistortIsTheInverseThatOpenCvFinds) {
+  for (const CameraCalibration& c : cameras()) {
+    const CameraModel& m = c.camera;
+    const cv::Mat camera = (cv::Mat_<double>(3, 3) << m.fx, 0, m.cx, 0, m.fy, m.cy, 0, 0, 1);
+    const cv::Mat lens = (cv::Mat_<double>(1, 8) << m.k1, m.k2, m.p1, m.p2, m.k3, m.k4, m.k5, m.k6);
+    std::vector<cv::Point2d> pixels, want;
+    for (double y = 0; y < m.image.height; y += 20) {
+      for (double x = 0; x < m.image.width; x += 20) pixels.emplace_back(x, y);
+    }
+    cv::undistortPoints(pixels, want, camera, lens, cv::noArray(), cv::noArray(),
+                        cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 500, 1e-12));
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const auto own = m.undistort(m.from_pixel({pixels[i].x, pixels[i].y}));
+      ASSERT_TRUE(own.has_value());
+      ASSERT_NEAR(own->x, want[i].x, 1e-6);
+      ASSERT_NEAR(own->y, want[i].y, 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace stereod

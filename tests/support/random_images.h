@@ -1,0 +1,52 @@
+// Made-up stereo pairs that are hard on a matcher, the same for the same seed on every machine.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/image.h"
+
+namespace stereod {
+
+/// A random number generator (splitmix64, Steele et al. 2014). The standard library's distributions differ
+/// from one library to the next; these do not.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+
+  std::uint64_t next();
+  /// A number in [least, most].
+  int between(int least, int most);
+  bool one_in(int n) { return between(1, n) == 1; }
+  template <typename T, std::size_t N>
+  const T& one_of(const std::array<T, N>& choices) {
+    return choices[static_cast<std::size_t>(between(0, static_cast<int>(N) - 1))];
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+enum class Content {
+  kNoise,        ///< every pixel for itself, left and right unrelated
+  kSmoothNoise,  ///< blurred noise of low contrast, left and right unrelated: shallow minima
+  kSlantedPair,  ///< a textured surface with a disparity that grows along x and y, with a little noise
+  kConstant,     ///< one grey value each: nothing but ties
+  kTwoLevels,    ///< two grey values a step apart: many ties
+  kExtremes,     ///< 0 and 255 in patterns that drive the sums to their maxima
+};
+inline constexpr std::array kAllContents = {Content::kNoise,    Content::kSmoothNoise, Content::kSlantedPair,
+                                            Content::kConstant, Content::kTwoLevels,   Content::kExtremes};
+
+std::string_view name_of(Content content);
+
+struct StereoPair {
+  GreyImage left;
+  GreyImage right;
+};
+
+/// A pair of this size, ≥ 1×1.
+StereoPair random_pair(Content content, Size size, std::uint64_t seed);
+
+}  // namespace stereod

@@ -1,0 +1,18 @@
+// Recordings for tests: pairs of the synthetic scene as files.
+#pragma once
+
+#include <filesystem>
+
+#include "core/image.h"
+
+namespace stereod {
+
+/// Writes `count` raw pairs of the synthetic scene as left_NN.png and right_NN.png into `folder`, and the cameras'
+/// calibration as calibration.yaml.
+void write_recorded_pairs(const std::filesystem::path& folder, Size size, int count);
+
+/// The names of pair `number`.
+std::filesystem::path recorded_left(const std::filesystem::path& folder, int number);
+std::filesystem::path recorded_right(const std::filesystem::path& folder, int number);
+
+}  // namespace stereod

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Installs with apt what building stereod and running its demo takes; with --tests also what its tests take.
+# Does nothing, and asks for no password, if everything is there.
+set -euo pipefail
+
+build_packages=(
+  g++ cmake ninja-build pkg-config
+  liblcm-dev liblcm-bin        # the messages on the wire, and the generator of their classes
+  libyaml-cpp-dev libspdlog-dev libcli11-dev
+  libturbojpeg0-dev libpng-dev
+  libsystemd-dev
+  iproute2 util-linux          # ip and unshare: the demo's and the tests' own network
+)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libopencv-dev)
+# The Aloe photographs. Some mirrors do without documentation, and so can we.
+optional_packages=(opencv-doc)
+
+die() {
+  echo "install-deps: $*" >&2
+  exit 1
+}
+
+packages=("${build_packages[@]}")
+case "${1:-}" in
+  '') ;;
+  --tests) packages+=("${test_packages[@]}") ;;
+  *) die "usage: toolchain/install-deps.sh [--tests]" ;;
+esac
+
+# Prints those of its arguments that are not installed.
+missing_of() {
+  local package
+  for package in "$@"; do
+    if ! dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed; then
+      echo "$package"
+    fi
+  done
+}
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+  die "this system has no apt; install what these Debian packages hold: ${packages[*]}."
+fi
+
+mapfile -t missing < <(missing_of "${packages[@]}")
+mapfile -t optional_missing < <(missing_of "${optional_packages[@]}")
+if [[ ${#missing[@]} -eq 0 && ${#optional_missing[@]} -eq 0 ]]; then
+  echo "install-deps: everything is there already (${#packages[@]} packages)."
+  exit 0
+fi
+
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    [[ ${#missing[@]} -eq 0 ]] || die "no sudo here; as root: apt-get install ${missing[*]}"
+    exit 0
+  fi
+  as_root=(sudo)
+  # What is merely nice to have is not worth a password.
+  [[ ${#missing[@]} -gt 0 ]] || as_root=(sudo -n)
+fi
+apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq "$@"; }
+install_packages() { apt install --no-install-recommends -y "$@" >/dev/null; }
+
+echo "install-deps: installing ${missing[*]} ${optional_missing[*]} with apt."
+if [[ ${#missing[@]} -gt 0 ]]; then
+  apt update || die "'apt-get update' failed; is the network there?"
+  install_packages "${missing[@]}" || die "apt could not install: ${missing[*]}."
+elif ! apt update; then
+  optional_missing=()
+fi
+for package in "${optional_missing[@]}"; do
+  install_packages "$package" || echo "install-deps: $package cannot be had here; going on without it."
+done
