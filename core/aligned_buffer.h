@@ -19,7 +19,8 @@ class AlignedBuffer {
  public:
   AlignedBuffer() = default;
   explicit AlignedBuffer(std::size_t size)
-      : data_(size == 0 ? nullptr : static_cast<T*>(::operator new(size * sizeof(T), kAlignment))), size_(size) {
+      : data_(size == 0 ? nullptr : static_cast<T*>(::operator new(size * sizeof(T), kAlignment))),
+        size_(size) {
     fill_zero();
   }
   ~AlignedBuffer() { ::operator delete(data_, kAlignment); }

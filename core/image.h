@@ -53,8 +53,7 @@ class ImageView {
       : data_(reinterpret_cast<Byte*>(data)), width_(width), height_(height), stride_(stride) {}
   /// A view to change is also a view to read.
   template <typename Other>
-    requires std::is_same_v<const Other, Pixel>
-  ImageView(const ImageView<Other>& other)
+  requires std::is_same_v<const Other, Pixel> ImageView(const ImageView<Other>& other)
       : ImageView(other.row(0), other.width(), other.height(), other.stride()) {}
 
   int width() const { return width_; }
@@ -84,7 +83,10 @@ class Image {
  public:
   Image() = default;
   Image(int width, int height)
-      : width_(width), height_(height), stride_(padded(width)), memory_(stride_ * static_cast<std::size_t>(height)) {}
+      : width_(width),
+        height_(height),
+        stride_(padded(width)),
+        memory_(stride_ * static_cast<std::size_t>(height)) {}
   explicit Image(Size size) : Image(size.width, size.height) {}
 
   int width() const { return width_; }
@@ -99,7 +101,8 @@ class Image {
     return {reinterpret_cast<Pixel*>(memory_.data()), width_, height_, static_cast<std::ptrdiff_t>(stride_)};
   }
   ImageView<const Pixel> view() const {
-    return {reinterpret_cast<const Pixel*>(memory_.data()), width_, height_, static_cast<std::ptrdiff_t>(stride_)};
+    return {reinterpret_cast<const Pixel*>(memory_.data()), width_, height_,
+            static_cast<std::ptrdiff_t>(stride_)};
   }
 
  private:

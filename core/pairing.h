@@ -20,20 +20,20 @@ struct FramePair {
 
 /// What became of the frames.
 struct PairingCounts {
-  std::int64_t pairs = 0;                     ///< made, whether or not they were taken in time
-  std::int64_t pairs_superseded = 0;          ///< not taken before a newer pair was there
-  std::int64_t left_without_partner = 0;      ///< no right frame was near enough in time
+  std::int64_t pairs = 0;                 ///< made, whether or not they were taken in time
+  std::int64_t pairs_superseded = 0;      ///< not taken before a newer pair was there
+  std::int64_t left_without_partner = 0;  ///< no right frame was near enough in time
   std::int64_t right_without_partner = 0;
-  std::int64_t frames_before_time_jump = 0;   ///< dropped because a camera's clock went backwards
+  std::int64_t frames_before_time_jump = 0;  ///< dropped because a camera's clock went backwards
 };
 
 /// Pairs frames by nearest time, newest first. It holds at most one frame of each camera that waits for a
-/// partner and one pair that waits to be taken; whatever else there is is dropped at once and counted, so nothing
-/// ever queues up. Frame is movable (a lease on a buffer, say); dropping one destroys it.
+/// partner and one pair that waits to be taken; whatever else there is is dropped at once and counted, so
+/// nothing ever queues up. Frame is movable (a lease on a buffer, say); dropping one destroys it.
 ///
-/// A frame is paired with the waiting one of the other camera if they are within the tolerance. If instead it is
-/// nearer to a member of the pair not yet taken than that member's partner is, it takes the partner's place. With
-/// a tolerance of half a frame time the first rule alone already finds the nearest.
+/// A frame is paired with the waiting one of the other camera if they are within the tolerance. If instead it
+/// is nearer to a member of the pair not yet taken than that member's partner is, it takes the partner's
+/// place. With a tolerance of half a frame time the first rule alone already finds the nearest.
 template <typename Frame>
 class Pairing {
  public:

@@ -13,7 +13,8 @@ namespace stereod {
 /// A fixed set of workers. The caller of run() is worker 0 and works too; the others are threads that sleep
 /// between runs. The pool has two states:
 ///   (1) idle: every thread waits for the next run to be announced;
-///   (2) running: job numbers are handed out under the lock until none is left, then the last worker to finish
+///   (2) running: job numbers are handed out under the lock until none is left, then the last worker to
+///   finish
 ///       wakes the caller.
 /// run() allocates nothing. One thread at a time may call it.
 class WorkerPool {
@@ -26,14 +27,15 @@ class WorkerPool {
 
   int workers() const { return static_cast<int>(threads_.size()) + 1; }
 
-  /// Calls job(number, worker) once for each number in [0, jobs), spread over the workers, and returns when all
-  /// are done. The first exception out of a job is rethrown here, after the others have ended; jobs that had
-  /// not begun by then are skipped.
+  /// Calls job(number, worker) once for each number in [0, jobs), spread over the workers, and returns when
+  /// all are done. The first exception out of a job is rethrown here, after the others have ended; jobs that
+  /// had not begun by then are skipped.
   template <typename Job>
   void run(int jobs, Job&& job) {
-    run_erased(jobs, const_cast<void*>(static_cast<const void*>(&job)), [](void* erased, int number, int worker) {
-      (*static_cast<std::remove_reference_t<Job>*>(erased))(number, worker);
-    });
+    run_erased(jobs, const_cast<void*>(static_cast<const void*>(&job)),
+               [](void* erased, int number, int worker) {
+                 (*static_cast<std::remove_reference_t<Job>*>(erased))(number, worker);
+               });
   }
 
  private:

@@ -37,7 +37,8 @@ sigset_t blocked_stop_signals() {
 int wait_for_signal(const sigset_t& signals, std::int64_t until_ns) {
   const std::int64_t left_ns = until_ns - monotonic_ns();
   const std::int64_t wait_ns = left_ns > 0 ? left_ns : 0;
-  const timespec wait{static_cast<time_t>(wait_ns / 1'000'000'000), static_cast<long>(wait_ns % 1'000'000'000)};
+  const timespec wait{static_cast<time_t>(wait_ns / 1'000'000'000),
+                      static_cast<long>(wait_ns % 1'000'000'000)};
   const int signal = sigtimedwait(&signals, nullptr, &wait);
   return signal > 0 ? signal : 0;
 }

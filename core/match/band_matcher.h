@@ -10,8 +10,8 @@
 
 namespace stereod {
 
-/// Matches one band of a rectified pair at a time. Each worker owns one; it holds all scratch memory and shares
-/// nothing. After construction it allocates nothing and throws nothing.
+/// Matches one band of a rectified pair at a time. Each worker owns one; it holds all scratch memory and
+/// shares nothing. After construction it allocates nothing and throws nothing.
 ///
 /// A band goes like this:
 ///   rows = begin({first, end});            the input rows it wants, with the halo above and below
@@ -27,7 +27,8 @@ class BandMatcher {
 
   virtual ~BandMatcher() = default;
 
-  /// Starts the band that answers for `rows` (not empty, inside the image) and returns the input rows it needs.
+  /// Starts the band that answers for `rows` (not empty, inside the image) and returns the input rows it
+  /// needs.
   virtual RowRange begin(RowRange rows) noexcept = 0;
 
   /// Where to write `width` pixels of input row y.
@@ -43,8 +44,9 @@ class BandMatcher {
   virtual std::size_t scratch_bytes() const noexcept = 0;
 };
 
-/// The matcher that the options ask for, for images of this size (≥ 1×1). Throws std::invalid_argument with the
-/// sentence of problem_with(), or with one that says what is missing if the CPU lacks the instruction set.
+/// The matcher that the options ask for, for images of this size (≥ 1×1). Throws std::invalid_argument with
+/// the sentence of problem_with(), or with one that says what is missing if the CPU lacks the instruction
+/// set.
 std::unique_ptr<BandMatcher> make_band_matcher(const MatcherOptions& options, Size image);
 
 }  // namespace stereod

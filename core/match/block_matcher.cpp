@@ -15,9 +15,12 @@ constexpr int kOutputRows = 8;  // more than the widest median looks at and one 
 std::unique_ptr<RowSearch> make_search(const MatcherOptions& options, int width) {
   if (first_answered_column(options) >= end_answered_column(options, width)) return nullptr;
   switch (options.implementation) {
-    case Implementation::kNaive: return make_naive_search(options, width);
-    case Implementation::kSliding: return make_sliding_search(options, width);
-    case Implementation::kSimd: break;
+    case Implementation::kNaive:
+      return make_naive_search(options, width);
+    case Implementation::kSliding:
+      return make_sliding_search(options, width);
+    case Implementation::kSimd:
+      break;
   }
   return make_simd_search(options, width);
 }
@@ -91,7 +94,8 @@ void BlockMatcher::prefilter_row(int y) noexcept {
   const int above = y > 0 ? y - 1 : std::min(1, image_.height - 1);
   const int below = y < image_.height - 1 ? y + 1 : std::max(image_.height - 2, 0);
   const auto apply = [&](RowRing<std::uint8_t>& input, RowRing<std::uint8_t>& output) {
-    xsobel_row(input.row(above), input.row(y), input.row(below), image_.width, options_.prefilter_cap, output.row(y));
+    xsobel_row(input.row(above), input.row(y), input.row(below), image_.width, options_.prefilter_cap,
+               output.row(y));
   };
   apply(left_input_, left_prefiltered_);
   apply(right_input_, right_prefiltered_);
@@ -105,7 +109,8 @@ void BlockMatcher::search_row(int y) noexcept {
   search_->add_row(left.row(y), right.row(y), full ? &winners_ : nullptr);
   if (texture_check_) {
     const bool leaves = y - compared_.first >= options_.window;
-    texture_check_->add_row(left.row(y), leaves ? left.row(y - options_.window) : nullptr, options_.prefilter_cap);
+    texture_check_->add_row(left.row(y), leaves ? left.row(y - options_.window) : nullptr,
+                            options_.prefilter_cap);
   }
   if (!full) return;
 
@@ -129,7 +134,8 @@ void BlockMatcher::filter_row(int y) noexcept {
   std::array<const std::int16_t*, 5> rows;
   for (int i = 0; i < options_.median; ++i) {
     const int row = y + i - median_radius();
-    rows[static_cast<std::size_t>(i)] = row >= searched_.first && row < searched_.end ? raw_row(row) : invalid_row();
+    rows[static_cast<std::size_t>(i)] =
+        row >= searched_.first && row < searched_.end ? raw_row(row) : invalid_row();
   }
   median_row(rows.data(), image_.width, median_radius(), median_.row(y));
 }
@@ -148,7 +154,8 @@ std::size_t BlockMatcher::scratch_bytes() const noexcept {
 
 std::unique_ptr<BandMatcher> make_band_matcher(const MatcherOptions& options, Size image) {
   if (const auto problem = problem_with(options)) throw std::invalid_argument(*problem);
-  if (image.width < 1 || image.height < 1) throw std::invalid_argument("an image to match has at least one pixel");
+  if (image.width < 1 || image.height < 1)
+    throw std::invalid_argument("an image to match has at least one pixel");
   if (options.implementation == Implementation::kSimd) resolve_isa(options.isa);
   return std::make_unique<BlockMatcher>(options, image);
 }

@@ -12,8 +12,8 @@
 
 namespace stereod {
 
-/// The sum-of-absolute-differences matcher of docs/matcher.md. A row passes through three stages, each of which
-/// keeps only as many rows as the next one looks at:
+/// The sum-of-absolute-differences matcher of docs/matcher.md. A row passes through three stages, each of
+/// which keeps only as many rows as the next one looks at:
 ///   input rows → (1) prefilter → prefiltered rows → (2) search and tests → raw disparities → (3) median.
 class BlockMatcher final : public BandMatcher {
  public:
@@ -41,10 +41,10 @@ class BlockMatcher final : public BandMatcher {
 
   MatcherOptions options_;
   Size image_;
-  RowRange answerable_{};    // rows of the image whose window lies in it; empty if no pixel can have an answer
-  RowRange output_{};        // the band
-  RowRange searched_{};      // rows whose winners are needed, the median's neighbours included
-  RowRange compared_{};      // prefiltered rows that the windows of those cover
+  RowRange answerable_{};  // rows of the image whose window lies in it; empty if no pixel can have an answer
+  RowRange output_{};      // the band
+  RowRange searched_{};    // rows whose winners are needed, the median's neighbours included
+  RowRange compared_{};    // prefiltered rows that the windows of those cover
   int prefiltered_end_ = 0;  // the next row for stage (1)
   int final_end_ = 0;        // rows of the band before this one are final
 

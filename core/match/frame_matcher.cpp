@@ -7,7 +7,8 @@ namespace stereod {
 
 FrameMatcher::FrameMatcher(const MatcherOptions& options, Size image, WorkerPool& pool)
     : options_(options), image_(image), pool_(pool) {
-  for (int worker = 0; worker < pool.workers(); ++worker) matchers_.push_back(make_band_matcher(options, image));
+  for (int worker = 0; worker < pool.workers(); ++worker)
+    matchers_.push_back(make_band_matcher(options, image));
   if (options.speckle_size > 0) speckle_filter_.emplace(image);
 }
 
@@ -15,10 +16,12 @@ void FrameMatcher::match(GreyView left, GreyView right, ImageView<std::int16_t> 
   assert(left.size() == image_ && right.size() == image_ && out.size() == image_);
   const int bands = std::min(pool_.workers(), image_.height);
   pool_.run(bands, [&](int band, int worker) {
-    match_band(*matchers_[static_cast<std::size_t>(worker)], left, right, band_rows(image_.height, band, bands), out);
+    match_band(*matchers_[static_cast<std::size_t>(worker)], left, right,
+               band_rows(image_.height, band, bands), out);
   });
   if (speckle_filter_) {
-    speckle_filter_->apply(out, options_.speckle_size, options_.speckle_max_diff * options_.units_per_pixel());
+    speckle_filter_->apply(out, options_.speckle_size,
+                           options_.speckle_max_diff * options_.units_per_pixel());
   }
 }
 

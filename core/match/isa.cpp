@@ -22,8 +22,9 @@ Isa resolve_isa(Isa wanted) {
   if (std::find(isas.begin(), isas.end(), wanted) != isas.end()) return wanted;
   std::string names;
   for (const Isa isa : isas) names += (names.empty() ? "" : ", ") + std::string(name_of(isa));
-  throw std::invalid_argument("isa is " + std::string(name_of(wanted)) +
-                              ", which this CPU or this build does not have; here auto and these are allowed: " + names);
+  throw std::invalid_argument(
+      "isa is " + std::string(name_of(wanted)) +
+      ", which this CPU or this build does not have; here auto and these are allowed: " + names);
 }
 
 }  // namespace stereod

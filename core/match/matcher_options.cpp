@@ -9,8 +9,9 @@ namespace {
 template <typename Enum, std::size_t N>
 using Names = std::array<std::pair<Enum, std::string_view>, N>;
 
-constexpr Names<Implementation, 3> kImplementations{
-    {{Implementation::kNaive, "naive"}, {Implementation::kSliding, "sliding"}, {Implementation::kSimd, "simd"}}};
+constexpr Names<Implementation, 3> kImplementations{{{Implementation::kNaive, "naive"},
+                                                     {Implementation::kSliding, "sliding"},
+                                                     {Implementation::kSimd, "simd"}}};
 constexpr Names<Isa, 6> kIsas{{{Isa::kAuto, "auto"},
                                {Isa::kScalar, "scalar"},
                                {Isa::kSsse3, "ssse3"},
@@ -38,13 +39,15 @@ std::optional<Enum> find_value(const Names<Enum, N>& names, std::string_view nam
 
 std::optional<std::string> outside(std::string_view option, int value, int least, int most) {
   if (value >= least && value <= most) return std::nullopt;
-  return std::string(option) + " is " + std::to_string(value) + ", allowed are " + std::to_string(least) + " to " +
-         std::to_string(most);
+  return std::string(option) + " is " + std::to_string(value) + ", allowed are " + std::to_string(least) +
+         " to " + std::to_string(most);
 }
 
 }  // namespace
 
-std::string_view name_of(Implementation implementation) { return find_name(kImplementations, implementation); }
+std::string_view name_of(Implementation implementation) {
+  return find_name(kImplementations, implementation);
+}
 std::string_view name_of(Isa isa) { return find_name(kIsas, isa); }
 std::string_view name_of(Prefilter prefilter) { return find_name(kPrefilters, prefilter); }
 std::string_view name_of(Cost cost) { return find_name(kCosts, cost); }
@@ -89,18 +92,21 @@ std::optional<std::string> problem_with(const MatcherOptions& o) {
        }) {
     if (problem) return problem;
   }
-  if (o.window % 2 == 0) return "window is " + std::to_string(o.window) + ", allowed are odd numbers from 3 to 31";
+  if (o.window % 2 == 0)
+    return "window is " + std::to_string(o.window) + ", allowed are odd numbers from 3 to 31";
   if (o.median != 0 && o.median != 3 && o.median != 5) {
     return "median is " + std::to_string(o.median) + ", allowed are 0 (off), 3 and 5";
   }
   if (o.texture_threshold > 0 && o.prefilter == Prefilter::kNone) {
     return "texture_threshold is " + std::to_string(o.texture_threshold) +
-           " but prefilter is none; the texture is measured on the xsobel picture, so set prefilter: xsobel or "
+           " but prefilter is none; the texture is measured on the xsobel picture, so set prefilter: xsobel "
+           "or "
            "texture_threshold: 0";
   }
   if (o.cost != Cost::kSad && o.implementation != Implementation::kNaive) {
     return "cost is " + std::string(name_of(o.cost)) + " but implementation is " +
-           std::string(name_of(o.implementation)) + "; costs other than sad exist only in implementation: naive";
+           std::string(name_of(o.implementation)) +
+           "; costs other than sad exist only in implementation: naive";
   }
   return std::nullopt;
 }

@@ -9,8 +9,8 @@
 
 namespace stereod {
 
-/// Four stages of the same matcher (thesis, sections 3.3, 3.7 and 3.8; the fourth, threads over bands, applies
-/// to each). All give the same result to the bit.
+/// Four stages of the same matcher (thesis, sections 3.3, 3.7 and 3.8; the fourth, threads over bands,
+/// applies to each). All give the same result to the bit.
 enum class Implementation { kNaive, kSliding, kSimd };
 
 /// Instruction sets that the simd implementation is compiled for. kAuto takes the best one the CPU has.
@@ -27,27 +27,27 @@ enum class Prefilter {
 enum class Cost { kSad, kSsd, kMad };
 
 struct MatcherOptions {
-  int min_disparity = 0;             ///< 0…1024 px
-  int disparities = 64;              ///< 1…256; searched are [min_disparity, min_disparity + disparities)
-  int window = 11;                   ///< side of the square support window, odd, 3…31 px
+  int min_disparity = 0;  ///< 0…1024 px
+  int disparities = 64;   ///< 1…256; searched are [min_disparity, min_disparity + disparities)
+  int window = 11;        ///< side of the square support window, odd, 3…31 px
   Cost cost = Cost::kSad;
   Prefilter prefilter = Prefilter::kXsobel;
-  int prefilter_cap = 31;            ///< 1…63 grey levels
-  int texture_threshold = 0;         ///< least sum over the window of |gradient| (clipped to the cap); 0 is off
-  int uniqueness_ratio = 0;          ///< %; a rival within this of the best cost, not beside it, rejects; 0 is off
-  int left_right_max_diff = -1;      ///< px the right image's own choice may differ; -1 is off
-  bool subpixel = true;              ///< answers in 1/16 px instead of whole pixels
-  int median = 0;                    ///< side of the median over the valid neighbours: 0 (off), 3 or 5
-  int speckle_size = 0;              ///< regions of up to this many pixels are removed; 0 is off
-  int speckle_max_diff = 1;          ///< px between neighbours of one region
+  int prefilter_cap = 31;     ///< 1…63 grey levels
+  int texture_threshold = 0;  ///< least sum over the window of |gradient| (clipped to the cap); 0 is off
+  int uniqueness_ratio = 0;   ///< %; a rival within this of the best cost, not beside it, rejects; 0 is off
+  int left_right_max_diff = -1;  ///< px the right image's own choice may differ; -1 is off
+  bool subpixel = true;          ///< answers in 1/16 px instead of whole pixels
+  int median = 0;                ///< side of the median over the valid neighbours: 0 (off), 3 or 5
+  int speckle_size = 0;          ///< regions of up to this many pixels are removed; 0 is off
+  int speckle_max_diff = 1;      ///< px between neighbours of one region
   Implementation implementation = Implementation::kSimd;
   Isa isa = Isa::kAuto;
 
   int units_per_pixel() const { return subpixel ? kSubpixelUnits : 1; }
 };
 
-/// Named settings: `thesis` (raw sums of absolute differences, no filter), `fast` (an answer for every pixel),
-/// `robust` (no ghosts). Nothing if there is no such preset.
+/// Named settings: `thesis` (raw sums of absolute differences, no filter), `fast` (an answer for every
+/// pixel), `robust` (no ghosts). Nothing if there is no such preset.
 std::optional<MatcherOptions> matcher_preset(std::string_view name);
 inline constexpr std::string_view kMatcherPresets = "thesis, fast, robust";
 

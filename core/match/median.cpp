@@ -47,7 +47,8 @@ constexpr auto sorting_network() {
   }();
   std::array<Comparator, kCount> network{};
   int next = 0;
-  visit_comparators<kN>([&](Comparator comparator) { network[static_cast<std::size_t>(next++)] = comparator; });
+  visit_comparators<kN>(
+      [&](Comparator comparator) { network[static_cast<std::size_t>(next++)] = comparator; });
   return network;
 }
 

@@ -34,8 +34,10 @@ class NaiveSearch final : public RowSearch {
   void search(RowWinners& winners) {
     for (int x = winners.first; x < winners.end; ++x) {
       const int n = std::min(options_.disparities, x - winners.first + 1);
-      for (int k = 0; k < n; ++k) costs_[static_cast<std::size_t>(k)] = window_cost(x, options_.min_disparity + k);
-      pick_winner(x, n, [this](int k) { return costs_[static_cast<std::size_t>(k)]; }, winners);
+      for (int k = 0; k < n; ++k)
+        costs_[static_cast<std::size_t>(k)] = window_cost(x, options_.min_disparity + k);
+      pick_winner(
+          x, n, [this](int k) { return costs_[static_cast<std::size_t>(k)]; }, winners);
     }
   }
 
@@ -48,9 +50,15 @@ class NaiveSearch final : public RowSearch {
         const auto difference =
             static_cast<std::uint32_t>(std::abs(left_[row][x + i] - right_[row][x + i - disparity]));
         switch (options_.cost) {
-          case Cost::kSad: cost += difference; break;
-          case Cost::kSsd: cost += difference * difference; break;
-          case Cost::kMad: cost = std::max(cost, difference); break;
+          case Cost::kSad:
+            cost += difference;
+            break;
+          case Cost::kSsd:
+            cost += difference * difference;
+            break;
+          case Cost::kMad:
+            cost = std::max(cost, difference);
+            break;
         }
       }
     }

@@ -8,9 +8,9 @@ namespace {
 
 std::size_t at(int x) { return static_cast<std::size_t>(x); }
 
-// Offset of the vertex of two lines of equal and opposite slope through three costs, in 1/16 px, −8…8. Doubles hold
-// every number here exactly, and a quotient of such numbers that is not a half is too far from one to be rounded to
-// it: the result is that of integer arithmetic, but vectors can do it.
+// Offset of the vertex of two lines of equal and opposite slope through three costs, in 1/16 px, −8…8.
+// Doubles hold every number here exactly, and a quotient of such numbers that is not a half is too far from
+// one to be rounded to it: the result is that of integer arithmetic, but vectors can do it.
 double vertex_offset(std::int32_t before, std::int32_t cost, std::int32_t after) {
   const std::int32_t height = (before > after ? before : after) - cost;
   const double offset = 8.0 * (before - after) / (height > 0 ? height : 1);
@@ -56,7 +56,8 @@ void reject_ambiguous(const RowWinners& winners, int uniqueness_ratio, std::int1
 
 LeftRightCheck::LeftRightCheck(int width) : claim_cost_(at(width)), claim_index_(at(width)) {}
 
-void LeftRightCheck::reject(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept {
+void LeftRightCheck::reject(const RowWinners& winners, const MatcherOptions& options,
+                            std::int16_t* out) noexcept {
   std::fill(claim_cost_.begin(), claim_cost_.end(), std::numeric_limits<std::uint32_t>::max());
   for (int x = winners.first; x < winners.end; ++x) {
     const std::size_t claimed = at(x - options.min_disparity - winners.index[at(x)]);
@@ -87,7 +88,8 @@ void TextureCheck::add_row(const std::uint8_t* added, const std::uint8_t* remove
   for (int x = 0; x < width; ++x) column_sums_[at(x)] -= std::abs(removed[x] - cap);
 }
 
-void TextureCheck::reject(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept {
+void TextureCheck::reject(const RowWinners& winners, const MatcherOptions& options,
+                          std::int16_t* out) noexcept {
   const int r = options.window / 2;
   std::int32_t sum = 0;
   for (int x = winners.first - r; x < winners.first + r; ++x) sum += column_sums_[at(x)];
@@ -98,6 +100,8 @@ void TextureCheck::reject(const RowWinners& winners, const MatcherOptions& optio
   }
 }
 
-std::size_t TextureCheck::scratch_bytes() const noexcept { return column_sums_.size() * sizeof(column_sums_[0]); }
+std::size_t TextureCheck::scratch_bytes() const noexcept {
+  return column_sums_.size() * sizeof(column_sums_[0]);
+}
 
 }  // namespace stereod

@@ -11,8 +11,8 @@
 
 namespace stereod {
 
-/// Writes the disparity of each column in [winners.first, winners.end): whole pixels or, with subpixel, 1/16 px
-/// (docs/matcher.md, section 3).
+/// Writes the disparity of each column in [winners.first, winners.end): whole pixels or, with subpixel, 1/16
+/// px (docs/matcher.md, section 3).
 void write_disparities(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept;
 
 /// Invalidates pixels with a rival whose cost is within `uniqueness_ratio` percent.

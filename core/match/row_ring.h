@@ -8,8 +8,8 @@
 
 namespace stereod {
 
-/// Memory for rows of an image of which only the last `capacity` are of interest: row y takes the place of row
-/// y − capacity.
+/// Memory for rows of an image of which only the last `capacity` are of interest: row y takes the place of
+/// row y − capacity.
 template <typename Pixel>
 class RowRing {
  public:

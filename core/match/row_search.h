@@ -26,15 +26,15 @@ struct RowWinners {
 
   int first = 0;
   int end = 0;
-  AlignedBuffer<std::uint16_t> index;  ///< k of the winner
-  AlignedBuffer<std::uint32_t> cost;   ///< C(k)
-  AlignedBuffer<std::uint32_t> before; ///< C(k−1); meaningless where k is the first or last searched
-  AlignedBuffer<std::uint32_t> after;  ///< C(k+1); likewise
-  AlignedBuffer<std::uint32_t> rival;  ///< least C(k') with |k' − k| > 1, kNoRival if there is none
+  AlignedBuffer<std::uint16_t> index;   ///< k of the winner
+  AlignedBuffer<std::uint32_t> cost;    ///< C(k)
+  AlignedBuffer<std::uint32_t> before;  ///< C(k−1); meaningless where k is the first or last searched
+  AlignedBuffer<std::uint32_t> after;   ///< C(k+1); likewise
+  AlignedBuffer<std::uint32_t> rival;   ///< least C(k') with |k' − k| > 1, kNoRival if there is none
 };
 
-/// Takes prefiltered rows one after the other and finds winners for the row in the middle of the last `window`
-/// of them. Allocates only in the constructor.
+/// Takes prefiltered rows one after the other and finds winners for the row in the middle of the last
+/// `window` of them. Allocates only in the constructor.
 class RowSearch {
  public:
   virtual ~RowSearch() = default;
@@ -54,7 +54,9 @@ class RowSearch {
 inline int first_answered_column(const MatcherOptions& options) {
   return options.min_disparity + options.window / 2;
 }
-inline int end_answered_column(const MatcherOptions& options, int width) { return width - options.window / 2; }
+inline int end_answered_column(const MatcherOptions& options, int width) {
+  return width - options.window / 2;
+}
 
 /// The searches of the three implementations, for rows of `width` pixels wide enough to have an answer.
 std::unique_ptr<RowSearch> make_naive_search(const MatcherOptions& options, int width);
@@ -62,7 +64,8 @@ std::unique_ptr<RowSearch> make_sliding_search(const MatcherOptions& options, in
 std::unique_ptr<RowSearch> make_simd_search(const MatcherOptions& options, int width);
 
 /// Writes what RowWinners holds for column x, from the costs of the n disparities searched there. Cost(k)
-/// returns C(k). The definition of the winner, its neighbours and its rival (docs/matcher.md, sections 2 to 4).
+/// returns C(k). The definition of the winner, its neighbours and its rival (docs/matcher.md, sections 2 to
+/// 4).
 template <typename CostOf>
 void pick_winner(int x, int n, CostOf cost, RowWinners& winners) {
   int best = 0;

@@ -1,4 +1,5 @@
-// Drives the vector kernels: which arithmetic fits, how the disparities are cut into chunks, whose memory is used.
+// Drives the vector kernels: which arithmetic fits, how the disparities are cut into chunks, whose memory is
+// used.
 #include <algorithm>
 #include <vector>
 
@@ -16,11 +17,15 @@ using kernels::Shape;
 const Kernel& kernel_for(Isa isa) {
   switch (isa) {
 #if defined(__x86_64__) || defined(__i386__)
-    case Isa::kSsse3: return kernels::kSsse3Kernel;
-    case Isa::kSse41: return kernels::kSse41Kernel;
-    case Isa::kAvx2: return kernels::kAvx2Kernel;
+    case Isa::kSsse3:
+      return kernels::kSsse3Kernel;
+    case Isa::kSse41:
+      return kernels::kSse41Kernel;
+    case Isa::kAvx2:
+      return kernels::kAvx2Kernel;
 #endif
-    default: return kernels::kScalarKernel;
+    default:
+      return kernels::kScalarKernel;
   }
 }
 
@@ -94,7 +99,8 @@ class SimdSearch final : public RowSearch {
   }
 
  private:
-  static constexpr std::size_t kBlockMargin = 64;  // the neighbours of the first and last disparity may be read
+  static constexpr std::size_t kBlockMargin =
+      64;  // the neighbours of the first and last disparity may be read
 
   std::size_t right_stride() const { return size(rounded_up(shape_.right_row_bytes(), 64)); }
   std::uint8_t* right_row(int slot) { return right_rows_.data() + size(slot) * right_stride(); }

@@ -1,5 +1,5 @@
-// The sliding window of the thesis, section 3.7: what the last window summed is kept, the new is added and the
-// oldest subtracted, first along the row (D to S1), then down the columns (S1 to S2).
+// The sliding window of the thesis, section 3.7: what the last window summed is kept, the new is added and
+// the oldest subtracted, first along the row (D to S1), then down the columns (S1 to S2).
 #include <algorithm>
 #include <cstdlib>
 
@@ -35,7 +35,8 @@ class SlidingSearch final : public RowSearch {
   }
 
   std::size_t scratch_bytes() const noexcept override {
-    return difference_.size() + row_sums_.size() * sizeof(row_sums_[0]) + window_sums_.size() * sizeof(window_sums_[0]);
+    return difference_.size() + row_sums_.size() * sizeof(row_sums_[0]) +
+           window_sums_.size() * sizeof(window_sums_[0]);
   }
 
  private:
@@ -68,7 +69,8 @@ class SlidingSearch final : public RowSearch {
     for (int x = winners.first; x < winners.end; ++x) {
       const int n = std::min(options_.disparities, x - winners.first + 1);
       const std::uint32_t* s2 = window_sums_.data() + x + options_.window / 2 - options_.min_disparity;
-      pick_winner(x, n, [&](int k) { return s2[static_cast<std::ptrdiff_t>(k) * columns_]; }, winners);
+      pick_winner(
+          x, n, [&](int k) { return s2[static_cast<std::ptrdiff_t>(k) * columns_]; }, winners);
     }
   }
 

@@ -27,8 +27,8 @@ void SpeckleFilter::apply(ImageView<std::int16_t> disparity, int max_size, int m
 std::size_t SpeckleFilter::grow_region(ImageView<std::int16_t> disparity, Pixel seed, int max_step) noexcept {
   std::size_t count = 0;
   const auto join = [&](int x, int y) {
-    std::uint8_t& visited =
-        visited_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) + static_cast<std::size_t>(x)];
+    std::uint8_t& visited = visited_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) +
+                                     static_cast<std::size_t>(x)];
     if (visited != 0) return;
     visited = 1;
     region_[count++] = {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};

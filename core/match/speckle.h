@@ -9,8 +9,8 @@
 
 namespace stereod {
 
-/// Makes invalid every region of at most `max_size` pixels; a region is what hangs together up, down, left and
-/// right by steps of at most `max_step` units (docs/matcher.md, section 5). Owns its scratch memory.
+/// Makes invalid every region of at most `max_size` pixels; a region is what hangs together up, down, left
+/// and right by steps of at most `max_step` units (docs/matcher.md, section 5). Owns its scratch memory.
 class SpeckleFilter {
  public:
   explicit SpeckleFilter(Size image);

@@ -11,8 +11,8 @@
 
 namespace stereod {
 
-/// The brightness of a picture, read where it lies: `pixel_stride` is 1 for grey and planar formats, 2 for the
-/// Y of YUYV and UYVY.
+/// The brightness of a picture, read where it lies: `pixel_stride` is 1 for grey and planar formats, 2 for
+/// the Y of YUYV and UYVY.
 struct LumaView {
   const std::uint8_t* data = nullptr;
   Size size;
@@ -41,7 +41,8 @@ class BufferOwner {
 class FrameLease {
  public:
   FrameLease() = default;
-  FrameLease(const Frame& frame, BufferOwner& owner, int buffer) : frame_(frame), owner_(&owner), buffer_(buffer) {}
+  FrameLease(const Frame& frame, BufferOwner& owner, int buffer)
+      : frame_(frame), owner_(&owner), buffer_(buffer) {}
   FrameLease(FrameLease&& other) noexcept
       : frame_(other.frame_), owner_(std::exchange(other.owner_, nullptr)), buffer_(other.buffer_) {}
   FrameLease& operator=(FrameLease&& other) noexcept {

@@ -18,8 +18,8 @@ struct Rig {
   std::optional<Calibration> calibration;  ///< for images of the sources' size
 };
 
-/// Opens what the configuration asks for. Throws FileError (a picture or the calibration cannot be used, or is
-/// for another image size).
+/// Opens what the configuration asks for. Throws FileError (a picture or the calibration cannot be used, or
+/// is for another image size).
 Rig open_rig(const Config& config);
 
 }  // namespace stereod

@@ -26,8 +26,12 @@ void read_replay(YamlSection section, CamerasConfig& cameras) {
   const bool pair = !cameras.replay_left.empty() && !cameras.replay_right.empty();
   const bool half = cameras.replay_left.empty() != cameras.replay_right.empty();
   if (half || pair != cameras.replay_folder.empty()) {
-    section.fail("left", "found " + std::string(half ? "one of left and right" : pair ? "both a pair and a folder" : "nothing to play") +
-                             ", allowed are either left and right, two pictures, or folder, one with numbered pairs");
+    section.fail("left",
+                 "found " +
+                     std::string(half   ? "one of left and right"
+                                 : pair ? "both a pair and a folder"
+                                        : "nothing to play") +
+                     ", allowed are either left and right, two pictures, or folder, one with numbered pairs");
   }
 }
 
@@ -40,7 +44,8 @@ void read_synthetic(YamlSection section, CamerasConfig& cameras) {
 
 void read_cameras(YamlSection section, CamerasConfig& cameras) {
   section.required_text("source");
-  cameras.source = section.choice<SourceKind>("source", cameras.source, "replay and synthetic", parse_source_kind);
+  cameras.source =
+      section.choice<SourceKind>("source", cameras.source, "replay and synthetic", parse_source_kind);
   cameras.fps = section.number("fps", cameras.fps, 0, 240);
   cameras.max_skew_ms = section.number("max_skew_ms", cameras.max_skew_ms, 0, 1000);
   // A section for another source may stay in the file; it is checked all the same.
@@ -60,10 +65,12 @@ void read_matcher(YamlSection section, MatcherOptions& options) {
   options.disparities = section.integer("disparities", options.disparities, 1, 256);
   options.window = section.integer("window", options.window, 3, 31);
   if (options.window % 2 == 0) {
-    section.fail("window", "found " + std::to_string(options.window) + ", allowed are odd numbers from 3 to 31");
+    section.fail("window",
+                 "found " + std::to_string(options.window) + ", allowed are odd numbers from 3 to 31");
   }
   options.cost = section.choice<Cost>("cost", options.cost, "sad, ssd and mad", parse_cost);
-  options.prefilter = section.choice<Prefilter>("prefilter", options.prefilter, "none and xsobel", parse_prefilter);
+  options.prefilter =
+      section.choice<Prefilter>("prefilter", options.prefilter, "none and xsobel", parse_prefilter);
   options.prefilter_cap = section.integer("prefilter_cap", options.prefilter_cap, 1, 63);
   // A preset without a prefilter to measure it on has no texture threshold.
   if (options.prefilter == Prefilter::kNone) options.texture_threshold = 0;
@@ -88,7 +95,8 @@ void read_lcm(YamlSection section, LcmConfig& lcm) {
   lcm.url = section.text("url", lcm.url);
   lcm.prefix = section.text("prefix", lcm.prefix);
   const bool plain = std::all_of(lcm.prefix.begin(), lcm.prefix.end(), [](unsigned char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
   });
   if (lcm.prefix.empty() || lcm.prefix.size() > kLongestPrefix || !plain) {
     section.fail("prefix", "found '" + lcm.prefix + "', allowed are 1 to " + std::to_string(kLongestPrefix) +
@@ -101,11 +109,13 @@ void read_lcm(YamlSection section, LcmConfig& lcm) {
 
 std::string read_log_level(YamlSection section, const std::string& otherwise) {
   constexpr std::array<std::string_view, 4> kLevels{"debug", "info", "warning", "error"};
-  const std::string level = section.choice<std::string>(
-      "level", otherwise, "debug, info, warning and error", [&](std::string_view name) -> std::optional<std::string> {
-        if (std::find(kLevels.begin(), kLevels.end(), name) == kLevels.end()) return std::nullopt;
-        return std::string(name);
-      });
+  const std::string level =
+      section.choice<std::string>("level", otherwise, "debug, info, warning and error",
+                                  [&](std::string_view name) -> std::optional<std::string> {
+                                    if (std::find(kLevels.begin(), kLevels.end(), name) == kLevels.end())
+                                      return std::nullopt;
+                                    return std::string(name);
+                                  });
   section.finish();
   return level;
 }

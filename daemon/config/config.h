@@ -17,32 +17,32 @@ enum class SourceKind {
 
 struct CamerasConfig {
   SourceKind source = SourceKind::kSynthetic;
-  double fps = 30;           ///< 0…240; 0 plays as fast as frames are matched
-  double max_skew_ms = 0;    ///< tolerance of pairing; 0 stands for half a frame
+  double fps = 30;         ///< 0…240; 0 plays as fast as frames are matched
+  double max_skew_ms = 0;  ///< tolerance of pairing; 0 stands for half a frame
   // source: replay
   std::filesystem::path replay_left, replay_right;  ///< one pair of pictures, or
   std::filesystem::path replay_folder;              ///< a folder of numbered pairs
   bool replay_loop = true;
   // source: synthetic
   int width = 640, height = 480;
-  double skew_ms = 0;        ///< how much later the right camera exposes
+  double skew_ms = 0;  ///< how much later the right camera exposes
 
   /// The largest difference of capture times within a pair, ns.
   std::int64_t pairing_tolerance_ns() const;
 };
 
 struct LcmConfig {
-  std::string url;                  ///< empty: LCM_DEFAULT_URL, or this machine only
-  std::string prefix = "STEREO";    ///< of every channel
+  std::string url;                ///< empty: LCM_DEFAULT_URL, or this machine only
+  std::string prefix = "STEREO";  ///< of every channel
   int rows_per_message = 16;
-  double spread = 0.3;              ///< share of the frame time over which a frame's rows are spread out
+  double spread = 0.3;  ///< share of the frame time over which a frame's rows are spread out
 };
 
 struct Config {
   CamerasConfig cameras;
   std::filesystem::path calibration;  ///< empty: the synthetic scene's own, or none
   MatcherOptions matcher = *matcher_preset("robust");
-  int workers = 0;                    ///< 0: one for each core
+  int workers = 0;  ///< 0: one for each core
   LcmConfig lcm;
   std::string log_level = "info";
 

@@ -38,7 +38,8 @@ std::string kind_of(const YAML::Node& node) {
 YAML::Node load_yaml_map(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw FileError(file.string() + ": there is no such file");
-  if (std::filesystem::is_directory(file, error)) throw FileError(file.string() + ": this is a folder, not a file");
+  if (std::filesystem::is_directory(file, error))
+    throw FileError(file.string() + ": this is a folder, not a file");
   std::ifstream in(file);
   std::stringstream text;
   if (in) text << in.rdbuf();
@@ -46,11 +47,13 @@ YAML::Node load_yaml_map(const std::filesystem::path& file) {
   try {
     YAML::Node root = YAML::Load(text.str());
     if (!root.IsMap()) {
-      throw FileError(file.string() + ":1: expected a map of keys and values, found " + kind_of(root).substr(0, 40));
+      throw FileError(file.string() + ":1: expected a map of keys and values, found " +
+                      kind_of(root).substr(0, 40));
     }
     return root;
   } catch (const YAML::Exception& problem) {
-    throw FileError(file.string() + ":" + std::to_string(problem.mark.line + 1) + ": not valid YAML: " + problem.msg);
+    throw FileError(file.string() + ":" + std::to_string(problem.mark.line + 1) +
+                    ": not valid YAML: " + problem.msg);
   }
 }
 
@@ -59,18 +62,21 @@ YamlSection::YamlSection(std::filesystem::path file, YAML::Node map, std::string
   std::vector<std::string> seen;
   for (const auto& entry : map_) {
     if (!entry.first.IsScalar()) {
-      throw FileError(file_.string() + ":" + std::to_string(entry.first.Mark().line + 1) + ": a key must be a word");
+      throw FileError(file_.string() + ":" + std::to_string(entry.first.Mark().line + 1) +
+                      ": a key must be a word");
     }
     const std::string& key = entry.first.Scalar();
     if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
-      throw FileError(file_.string() + ":" + std::to_string(entry.first.Mark().line + 1) + ": " + full_name(key) +
-                      ": stands here a second time; keep one of them");
+      throw FileError(file_.string() + ":" + std::to_string(entry.first.Mark().line + 1) + ": " +
+                      full_name(key) + ": stands here a second time; keep one of them");
     }
     seen.push_back(key);
   }
 }
 
-std::string YamlSection::full_name(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+std::string YamlSection::full_name(const std::string& key) const {
+  return path_.empty() ? key : path_ + "." + key;
+}
 
 // Does not use map_[key]: on a node that is not const it would add the key.
 YAML::Node YamlSection::find(const std::string& key) {
@@ -82,7 +88,8 @@ YAML::Node YamlSection::find(const std::string& key) {
 }
 
 bool YamlSection::has(const std::string& key) const {
-  return std::any_of(map_.begin(), map_.end(), [&](const auto& entry) { return entry.first.Scalar() == key; });
+  return std::any_of(map_.begin(), map_.end(),
+                     [&](const auto& entry) { return entry.first.Scalar() == key; });
 }
 
 void YamlSection::require(const std::string& key) {
@@ -95,8 +102,8 @@ void YamlSection::require(const std::string& key) {
 void YamlSection::fail(const std::string& key, const std::string& complaint) const {
   for (const auto& entry : map_) {
     if (entry.first.Scalar() == key) {
-      throw FileError(file_.string() + ":" + std::to_string(entry.first.Mark().line + 1) + ": " + full_name(key) +
-                      ": " + complaint);
+      throw FileError(file_.string() + ":" + std::to_string(entry.first.Mark().line + 1) + ": " +
+                      full_name(key) + ": " + complaint);
     }
   }
   throw FileError(file_.string() + ": " + full_name(key) + ": " + complaint);
@@ -174,7 +181,8 @@ std::vector<double> YamlSection::required_numbers(const std::string& key, std::s
   std::vector<double> values;
   for (const YAML::Node& item : node) {
     const auto value = item.IsScalar() ? parse_number<double>(item.Scalar()) : std::nullopt;
-    if (!value || !std::isfinite(*value)) fail(key, "found " + kind_of(item) + ", allowed are finite numbers");
+    if (!value || !std::isfinite(*value))
+      fail(key, "found " + kind_of(item) + ", allowed are finite numbers");
     values.push_back(*value);
   }
   return values;
@@ -196,10 +204,11 @@ void YamlSection::finish() const {
   for (const auto& entry : map_) {
     const std::string& key = entry.first.Scalar();
     if (std::find(asked_for_.begin(), asked_for_.end(), key) != asked_for_.end()) continue;
-    const auto nearest = std::min_element(asked_for_.begin(), asked_for_.end(), [&](const auto& a, const auto& b) {
-      return edit_distance(key, a) < edit_distance(key, b);
-    });
-    const std::string hint = nearest == asked_for_.end() ? "" : "; the nearest known key is '" + *nearest + "'";
+    const auto nearest = std::min_element(
+        asked_for_.begin(), asked_for_.end(),
+        [&](const auto& a, const auto& b) { return edit_distance(key, a) < edit_distance(key, b); });
+    const std::string hint =
+        nearest == asked_for_.end() ? "" : "; the nearest known key is '" + *nearest + "'";
     fail(key, "is not a known key" + hint);
   }
 }

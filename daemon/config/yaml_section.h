@@ -1,4 +1,5 @@
-// Strict reading of YAML: every key is known, every value has its type and range, every complaint has its line.
+// Strict reading of YAML: every key is known, every value has its type and range, every complaint has its
+// line.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -14,11 +15,12 @@
 
 namespace stereod {
 
-/// Reads a whole file as one YAML map. Throws FileError: missing, unreadable, not YAML (with the line), no map.
+/// Reads a whole file as one YAML map. Throws FileError: missing, unreadable, not YAML (with the line), no
+/// map.
 YAML::Node load_yaml_map(const std::filesystem::path& file);
 
-/// One map of a YAML file. Keys are read by asking for them; finish() then finds the ones nobody asked for. All
-/// errors are FileErrors: "file:line: key: what was found, what is allowed".
+/// One map of a YAML file. Keys are read by asking for them; finish() then finds the ones nobody asked for.
+/// All errors are FileErrors: "file:line: key: what was found, what is allowed".
 class YamlSection {
  public:
   /// `path` is the section's own name with the names above it, "" for the whole file.

@@ -6,12 +6,14 @@
 
 namespace stereod {
 
-BandWorker::BandWorker(const MatcherOptions& options, Size size) : matcher_(make_band_matcher(options, size)) {}
+BandWorker::BandWorker(const MatcherOptions& options, Size size)
+    : matcher_(make_band_matcher(options, size)) {}
 
 void BandWorker::run(const Job& job, RowRange blocks) noexcept {
   rectify_ns_ = match_ns_ = 0;
   next_block_ = blocks.first;
-  const RowRange band{job.publisher.block_rows(blocks.first).first, job.publisher.block_rows(blocks.end - 1).end};
+  const RowRange band{job.publisher.block_rows(blocks.first).first,
+                      job.publisher.block_rows(blocks.end - 1).end};
   const RowRange input = matcher_->begin(band);
   for (int y = input.first; y < input.end; y += BandMatcher::kRowsAhead) {
     const RowRange rows{y, std::min(y + BandMatcher::kRowsAhead, input.end)};

@@ -26,8 +26,8 @@ class BandWorker {
     bool announce;  ///< rows are final once they are matched; false if a filter waits for the whole frame
   };
 
-  /// Does the rows of `blocks`. Rectification goes a few rows ahead of matching, so that the rows are still in the
-  /// cache when they are matched.
+  /// Does the rows of `blocks`. Rectification goes a few rows ahead of matching, so that the rows are still
+  /// in the cache when they are matched.
   void run(const Job& job, RowRange blocks) noexcept;
 
   /// Time the last run() spent, ns.

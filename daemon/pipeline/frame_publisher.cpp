@@ -10,8 +10,8 @@
 namespace stereod {
 namespace {
 
-constexpr int kLargestDatagram = 65'499;   // LCM sends more in fragments, of which one lost loses all
-constexpr int kHeaderAllowance = 256;      // channel name and the message's own fields
+constexpr int kLargestDatagram = 65'499;      // LCM sends more in fragments, of which one lost loses all
+constexpr int kHeaderAllowance = 256;         // channel name and the message's own fields
 constexpr std::int64_t kBurstBytes = 96'000;  // fits a default socket buffer (212,992 B with its overhead)
 
 int block_bytes(const WireFormat& format, Size size) {
@@ -206,8 +206,8 @@ void FramePublisher::keep_pace(std::size_t bytes) noexcept {
   const double ns_per_byte = format_.spread_s * 1e9 / frame_bytes;
   const std::int64_t now = monotonic_ns();
   const auto burst_ns = static_cast<std::int64_t>(ns_per_byte * static_cast<double>(kBurstBytes));
-  paced_until_ns_ =
-      std::max(paced_until_ns_, now - burst_ns) + static_cast<std::int64_t>(ns_per_byte * static_cast<double>(bytes));
+  paced_until_ns_ = std::max(paced_until_ns_, now - burst_ns) +
+                    static_cast<std::int64_t>(ns_per_byte * static_cast<double>(bytes));
   if (paced_until_ns_ > now) std::this_thread::sleep_for(std::chrono::nanoseconds(paced_until_ns_ - now));
 }
 

@@ -20,12 +20,12 @@ namespace stereod {
 
 /// How disparity goes onto the wire.
 struct WireFormat {
-  std::string prefix;        ///< of the channels
+  std::string prefix;  ///< of the channels
   int rows_per_message = 1;
   int min_disparity = 0;
   int disparities = 1;
   int units_per_pixel = 1;
-  double spread_s = 0;       ///< time over which one frame's rows are spread out; 0: sent as they come
+  double spread_s = 0;  ///< time over which one frame's rows are spread out; 0: sent as they come
 
   /// 1 if every value and the invalid one fit in a byte, else 2.
   int bytes_per_value() const;
@@ -41,8 +41,8 @@ struct PublisherFigures {
 };
 
 /// Two frames are in it at most: one that workers fill and one that is being sent. Workers announce blocks of
-/// rows as they become final; the thread sends each at once, unless that is faster than the pace: then it waits, so
-/// that a burst does not overrun the receivers' socket buffers. Workers never wait for the network.
+/// rows as they become final; the thread sends each at once, unless that is faster than the pace: then it
+/// waits, so that a burst does not overrun the receivers' socket buffers. Workers never wait for the network.
 class FramePublisher {
  public:
   /// Throws std::invalid_argument with a sentence if a block of rows does not fit in one message.

@@ -13,11 +13,11 @@ struct FrameFacts {
   std::int64_t utime = 0;  ///< left_ns in µs since the Unix epoch: the same in all messages of the frame
   std::int64_t left_ns = 0, right_ns = 0;
   std::uint32_t left_sequence = 0, right_sequence = 0;
-  std::int64_t started_ns = 0;   ///< the first worker began
-  std::int64_t rectify_ns = 0;   ///< spent, mean over the workers
-  std::int64_t match_ns = 0;     ///< likewise
-  std::int64_t filter_ns = 0;    ///< spent on filters that need the whole frame
-  std::int64_t matched_ns = 0;   ///< the last row was final
+  std::int64_t started_ns = 0;  ///< the first worker began
+  std::int64_t rectify_ns = 0;  ///< spent, mean over the workers
+  std::int64_t match_ns = 0;    ///< likewise
+  std::int64_t filter_ns = 0;   ///< spent on filters that need the whole frame
+  std::int64_t matched_ns = 0;  ///< the last row was final
 };
 
 /// The disparities of one frame and where they come from.

@@ -95,9 +95,11 @@ void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
   publisher_.frame_final(output);
 }
 
-// The tables are made when the first frame shows how its pixels lie in memory, and again if that ever changes.
+// The tables are made when the first frame shows how its pixels lie in memory, and again if that ever
+// changes.
 void Pipeline::prepare_maps(const LeasedPair& pair) {
-  const auto prepare = [](std::optional<RectifyMap>& map, const FrameLease& lease, const CameraCalibration* camera) {
+  const auto prepare = [](std::optional<RectifyMap>& map, const FrameLease& lease,
+                          const CameraCalibration* camera) {
     const SourceLayout layout = layout_of(lease.frame().luma);
     if (map && map->layout() == layout) return;
     map.emplace(camera != nullptr ? RectifyMap(*camera, layout) : RectifyMap::identity(layout));

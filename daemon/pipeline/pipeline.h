@@ -33,8 +33,9 @@ struct PipelineFigures {
   PublisherFigures published;
 };
 
-/// Runs these threads: one for each camera (CaptureThread), the matching thread, which takes pairs and is itself
-/// the first of the workers, the other workers, and the publisher. After the first frame it allocates nothing.
+/// Runs these threads: one for each camera (CaptureThread), the matching thread, which takes pairs and is
+/// itself the first of the workers, the other workers, and the publisher. After the first frame it allocates
+/// nothing.
 class Pipeline {
  public:
   /// Starts at once. The bus outlives it. Throws std::invalid_argument with a sentence if the configuration

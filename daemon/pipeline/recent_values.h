@@ -22,7 +22,8 @@ class RecentValues {
     if (held == 0) return 0;
     std::array<double, kCapacity> sorted = values_;
     const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(held - 1) + 0.5);
-    std::nth_element(sorted.begin(), sorted.begin() + place, sorted.begin() + static_cast<std::ptrdiff_t>(held));
+    std::nth_element(sorted.begin(), sorted.begin() + place,
+                     sorted.begin() + static_cast<std::ptrdiff_t>(held));
     return sorted[static_cast<std::size_t>(place)];
   }
 

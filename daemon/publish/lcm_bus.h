@@ -12,8 +12,9 @@ class LcmBus : public MessageBus {
   /// `url` as in effective_lcm_url(); a file must be opened with mode=w or mode=a. Throws BusError.
   explicit LcmBus(const std::string& url);
 
-  /// Allocates nothing with udpm (measured, LCM 1.3.1: messages of 2 B to 2 MB). A message that fits no
-  /// single datagram (channel and data > 65,499 B) is sent in fragments.
+  /// Allocates nothing with udpm after the first message, for which GLib makes a mutex (measured, LCM 1.3.1,
+  /// messages of 1 B to 2 MB); a log file takes one allocation a message. What does not fit in one datagram
+  /// (channel and data > 65,499 B) is sent in fragments.
   bool publish(const char* channel, const void* data, std::size_t size) noexcept override;
 
  private:

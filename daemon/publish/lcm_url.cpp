@@ -77,7 +77,7 @@ std::string LcmUrl::text() const {
   std::string result = provider + "://" + network;
   char separator = '?';
   for (const auto& [key, value] : options) {
-    result += separator + key + "=" + value;
+    result.append(1, separator).append(key).append("=").append(value);
     separator = '&';
   }
   return result;

@@ -18,16 +18,23 @@ class SystemdPriority final : public spdlog::custom_flag_formatter {
               spdlog::memory_buf_t& out) override {
     out.push_back(priority_of(message.level));
   }
-  std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<SystemdPriority>(); }
+  std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<SystemdPriority>();
+  }
 
  private:
   static char priority_of(spdlog::level::level_enum level) {
     switch (level) {
-      case spdlog::level::critical: return '2';
-      case spdlog::level::err: return '3';
-      case spdlog::level::warn: return '4';
-      case spdlog::level::info: return '6';
-      default: return '7';
+      case spdlog::level::critical:
+        return '2';
+      case spdlog::level::err:
+        return '3';
+      case spdlog::level::warn:
+        return '4';
+      case spdlog::level::info:
+        return '6';
+      default:
+        return '7';
     }
   }
 };
@@ -35,7 +42,8 @@ class SystemdPriority final : public spdlog::custom_flag_formatter {
 }  // namespace
 
 void set_up_log(const std::string& level) {
-  auto logger = std::make_shared<spdlog::logger>("stereod", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  auto logger =
+      std::make_shared<spdlog::logger>("stereod", std::make_shared<spdlog::sinks::stderr_sink_mt>());
   if (isatty(STDERR_FILENO) == 1) {
     logger->set_pattern("%H:%M:%S.%e %l: %v");
   } else {

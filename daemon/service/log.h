@@ -5,9 +5,9 @@
 
 namespace stereod {
 
-/// Sets spdlog's default logger up: on a terminal time, level and text; else (journald, a file) each line begins
-/// with systemd's priority, "<6>text", see sd-daemon(3). `level`: debug, info, warning or error. Nothing on the
-/// per-frame path logs.
+/// Sets spdlog's default logger up: on a terminal time, level and text; else (journald, a file) each line
+/// begins with systemd's priority, "<6>text", see sd-daemon(3). `level`: debug, info, warning or error.
+/// Nothing on the per-frame path logs.
 void set_up_log(const std::string& level);
 
 }  // namespace stereod

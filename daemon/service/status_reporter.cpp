@@ -16,9 +16,12 @@ constexpr std::size_t kLargestStatus = 8192;
 
 const char* state_name(SourceState state) {
   switch (state) {
-    case SourceState::kWaiting: return "waiting";
-    case SourceState::kStreaming: return "streaming";
-    case SourceState::kFinished: return "finished";
+    case SourceState::kWaiting:
+      return "waiting";
+    case SourceState::kStreaming:
+      return "streaming";
+    case SourceState::kFinished:
+      return "finished";
   }
   return "?";
 }
@@ -39,15 +42,17 @@ ServiceState judge_state(const PipelineFigures& now, const PipelineFigures& befo
   if (!missing.empty()) return {"waiting_for_cameras", missing};
   if (now.published.frames == before.published.frames) {
     if (now.pairing.pairs == before.pairing.pairs) {
-      return {"degraded", "both cameras give frames, but never near enough in time to be a pair; raise "
-                          "cameras.max_skew_ms or give both the same rate"};
+      return {"degraded",
+              "both cameras give frames, but never near enough in time to be a pair; raise "
+              "cameras.max_skew_ms or give both the same rate"};
     }
     return {"degraded", "pairs are made but none was published in the last second"};
   }
   if (now.published.messages_refused > before.published.messages_refused) {
     return {"degraded", "the network refused messages"};
   }
-  if (!calibrated) return {"uncalibrated", "no calibration is configured, so the images are matched unrectified"};
+  if (!calibrated)
+    return {"uncalibrated", "no calibration is configured, so the images are matched unrectified"};
   return {"streaming", ""};
 }
 
@@ -74,8 +79,9 @@ void StatusReporter::report() {
   const double seconds = std::max(1e-3, static_cast<double>(now_ns - before_ns_) * 1e-9);
   const double cpu_s = process_cpu_seconds();
   const bool calibrated = pipeline_.rig().calibration.has_value();
-  const ServiceState state = std::exchange(first_, false) ? ServiceState{"starting", "waiting for the first frames"}
-                                                          : judge_state(now, before_, calibrated);
+  const ServiceState state = std::exchange(first_, false)
+                                 ? ServiceState{"starting", "waiting for the first frames"}
+                                 : judge_state(now, before_, calibrated);
   if (state.name != status_.state || state.reason != status_.reason) {
     spdlog::info("state: {}{}{}", state.name, state.reason.empty() ? "" : ": ", state.reason);
   }
@@ -111,8 +117,8 @@ void StatusReporter::report() {
   before_cpu_s_ = cpu_s;
 }
 
-void StatusReporter::fill_camera(camera_status_t& message, const CameraFigures& now, const CameraFigures& before,
-                                 double seconds) {
+void StatusReporter::fill_camera(camera_status_t& message, const CameraFigures& now,
+                                 const CameraFigures& before, double seconds) {
   message.state = state_name(now.state);
   message.reason = now.state == SourceState::kFinished ? "the recording has played to its end" : "";
   message.fps = static_cast<double>(now.frames - before.frames) / seconds;

@@ -31,7 +31,8 @@ class StatusReporter {
 
  private:
   void publish_camera_info();
-  void fill_camera(camera_status_t& message, const CameraFigures& now, const CameraFigures& before, double seconds);
+  void fill_camera(camera_status_t& message, const CameraFigures& now, const CameraFigures& before,
+                   double seconds);
 
   Pipeline& pipeline_;
   MessageBus& bus_;

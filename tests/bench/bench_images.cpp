@@ -19,8 +19,7 @@ std::optional<MatPair> load(const std::string& left, const std::string& right, c
 
 std::filesystem::path datasets() {
   if (const char* set = std::getenv("STEREO_DATASETS")) return set;
-  // This file is tests/bench/… in the source tree; the data lie beside the tree.
-  return std::filesystem::path(__FILE__).parent_path() / ".." / ".." / ".." / "shared" / "datasets";
+  return std::filesystem::path(STEREOD_SOURCE_DIR) / ".." / "shared" / "datasets";
 }
 
 std::optional<MatPair> load_tsukuba() {

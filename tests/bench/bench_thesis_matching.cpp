@@ -18,7 +18,7 @@ namespace stereod::bench {
 namespace {
 
 constexpr int kNaiveTurns = 4;
-const std::string kOpenCv = "OpenCV BM";
+constexpr const char* kOpenCv = "OpenCV BM";
 constexpr const char* kConditions =
     R"(Own: raw grey values, whole pixels, no test, no filter, as in the thesis. OpenCV's StereoBM: texture,
 uniqueness, left-right and speckle tests off. The thesis switched its prefilter off too; there is no such

@@ -66,8 +66,8 @@ TEST(ImageView, StepsFromRowToRowByItsStrideInBytes) {
   const ImageView<std::int16_t> view(memory.data() + 1, 3, 4, 5 * sizeof(std::int16_t));
   EXPECT_EQ(view.at(0, 0), 1);
   EXPECT_EQ(view.at(2, 3), 5 * 3 + 3);
-  view.at(1, 2) = -1;
-  EXPECT_EQ(memory[5 * 2 + 2], -1);
+  view.at(1, 2) = -1;  // 2 rows of 5, the one column skipped, and 1
+  EXPECT_EQ(memory[12], -1);
   EXPECT_EQ(view.row(1), memory.data() + 6);
 }
 

@@ -26,7 +26,9 @@ struct BadOption {
   std::function<void(MatcherOptions&)> change;
 };
 
-void PrintTo(const BadOption& bad, std::ostream* out) { *out << bad.option << " = " << bad.found; }
+std::ostream& operator<<(std::ostream& out, const BadOption& bad) {
+  return out << bad.option << " = " << bad.found;
+}
 
 const std::vector<BadOption>& bad_options() {
   static const std::vector<BadOption> all = {

@@ -39,6 +39,7 @@ DisparityImage disparity_image(const std::vector<Row>& rows) {
 template <typename Pixel>
 std::vector<Row> rows_of(const Image<Pixel>& image) {
   std::vector<Row> rows;
+  rows.reserve(static_cast<std::size_t>(image.height()));
   for (int y = 0; y < image.height(); ++y) rows.emplace_back(image.row(y), image.row(y) + image.width());
   return rows;
 }
@@ -215,8 +216,8 @@ TEST(MatcherOracle, LeftRightKeepsTheBestClaim) {
 }
 
 TEST(MatcherOracle, LeftRightCountsClaimsThatOtherTestsReject) {
-  // x = 4 (0 9 0) costs 0 at k = 0 and at k = 3: not unique. x = 6 (0 9 0) costs 0 only at k = 2. Both claim the
-  // right pixel 4, where x = 4 stands, rejected or not.
+  // x = 4 (0 9 0) costs 0 at k = 0 and at k = 3: not unique. x = 6 (0 9 0) costs 0 only at k = 2. Both claim
+  // the right pixel 4, where x = 4 stands, rejected or not.
   const Row left = {0, 0, 0, 0, 9, 0, 9, 0, 0, 0};
   const Row right = {0, 9, 0, 0, 9, 0, 0, 0, 0, 0};
   MatcherOptions options = plain(4);

@@ -123,15 +123,19 @@ INSTANTIATE_TEST_SUITE_P(
         BadConfig{"cameras:\n  source: synthetic\n  speed: 3\n",
                   "stereod.yaml:3: cameras.speed: is not a known key; the nearest known key is 'fps'"},
         BadConfig{"cameras:\n  source: synthetic\nmatcher:\n  dispariites: 64\n",
-                  "stereod.yaml:4: matcher.dispariites: is not a known key; the nearest known key is 'disparities'"},
+                  "stereod.yaml:4: matcher.dispariites: is not a known key; the nearest known key is "
+                  "'disparities'"},
         BadConfig{"cameras: {source: synthetic}\nmatchr: {}\n",
                   "stereod.yaml:2: matchr: is not a known key; the nearest known key is 'matcher'"},
-        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  disparities: 300\n",
-                  "stereod.yaml:3: matcher.disparities: found '300', allowed are whole numbers from 1 to 256"},
-        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  disparities: many\n",
-                  "stereod.yaml:3: matcher.disparities: found 'many', allowed are whole numbers from 1 to 256"},
-        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  disparities: 6.5\n",
-                  "stereod.yaml:3: matcher.disparities: found '6.5', allowed are whole numbers from 1 to 256"},
+        BadConfig{
+            "cameras: {source: synthetic}\nmatcher:\n  disparities: 300\n",
+            "stereod.yaml:3: matcher.disparities: found '300', allowed are whole numbers from 1 to 256"},
+        BadConfig{
+            "cameras: {source: synthetic}\nmatcher:\n  disparities: many\n",
+            "stereod.yaml:3: matcher.disparities: found 'many', allowed are whole numbers from 1 to 256"},
+        BadConfig{
+            "cameras: {source: synthetic}\nmatcher:\n  disparities: 6.5\n",
+            "stereod.yaml:3: matcher.disparities: found '6.5', allowed are whole numbers from 1 to 256"},
         BadConfig{"cameras: {source: synthetic}\nmatcher:\n  disparities: [1, 2]\n",
                   "stereod.yaml:3: matcher.disparities: found a list, allowed is one value"},
         BadConfig{"cameras: {source: synthetic}\nmatcher:\n  window: 10\n",
@@ -146,16 +150,19 @@ INSTANTIATE_TEST_SUITE_P(
                   "stereod.yaml:2: matcher: found '7', allowed is a map of keys and values"},
         BadConfig{"cameras: {source: synthetic}\nworkers: 3\nworkers: 4\n",
                   "stereod.yaml:3: workers: stands here a second time; keep one of them"},
-        BadConfig{"cameras: {source: synthetic}\nlcm:\n  prefix: 'A B'\n",
-                  "stereod.yaml:3: lcm.prefix: found 'A B', allowed are 1 to 40 letters, digits, '_', '-' and '.'"},
+        BadConfig{
+            "cameras: {source: synthetic}\nlcm:\n  prefix: 'A B'\n",
+            "stereod.yaml:3: lcm.prefix: found 'A B', allowed are 1 to 40 letters, digits, '_', '-' and '.'"},
         BadConfig{"cameras: {source: synthetic}\nlog:\n  level: loud\n",
                   "stereod.yaml:3: log.level: found 'loud', allowed are debug, info, warning and error"},
         BadConfig{"cameras:\n  source: replay\n",
-                  "stereod.yaml: cameras.replay.left: found nothing to play, allowed are either left and right, two "
+                  "stereod.yaml: cameras.replay.left: found nothing to play, allowed are either left and "
+                  "right, two "
                   "pictures, or folder, one with numbered pairs"},
-        BadConfig{"cameras:\n  source: replay\n  replay: {left: a.png}\n",
-                  "stereod.yaml:3: cameras.replay.left: found one of left and right, allowed are either left and "
-                  "right, two pictures, or folder, one with numbered pairs"},
+        BadConfig{
+            "cameras:\n  source: replay\n  replay: {left: a.png}\n",
+            "stereod.yaml:3: cameras.replay.left: found one of left and right, allowed are either left and "
+            "right, two pictures, or folder, one with numbered pairs"},
         BadConfig{"cameras: {source: synthetic, fps: -1}\n",
                   "stereod.yaml:1: cameras.fps: found '-1', allowed are numbers from 0 to 240"},
         BadConfig{"cameras: {source: synthetic, fps: .nan}\n",

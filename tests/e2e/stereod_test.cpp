@@ -48,10 +48,15 @@ class StereodTest : public testing::Test {
 };
 
 /// What stereo-match makes of a recorded pair.
-Image<float> matched_by_tool(const std::filesystem::path& folder, int number, const std::vector<std::string>& options) {
+Image<float> matched_by_tool(const std::filesystem::path& folder, int number,
+                             const std::vector<std::string>& options) {
   const std::filesystem::path out = folder / "expected.pfm";
-  std::vector<std::string> arguments{recorded_left(folder, number).string(), recorded_right(folder, number).string(),
-                                     "-o", out.string(), "--calibration", (folder / "calibration.yaml").string()};
+  std::vector<std::string> arguments{recorded_left(folder, number).string(),
+                                     recorded_right(folder, number).string(),
+                                     "-o",
+                                     out.string(),
+                                     "--calibration",
+                                     (folder / "calibration.yaml").string()};
   arguments.insert(arguments.end(), options.begin(), options.end());
   const ProgramRun run = run_program(kBin / "stereo-match", arguments, folder);
   EXPECT_EQ(run.status, 0) << run.err;
@@ -70,7 +75,8 @@ TEST_P(StereodRows, ArriveInAnotherProcessAsStereoMatchMakesThem) {
   if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
   write_recorded_pairs(directory_.path(), kSize, kPairs);
   std::map<std::int64_t, Image<float>> expected;
-  for (int i = 0; i < kPairs; ++i) expected.emplace(i, matched_by_tool(directory_.path(), i, GetParam().options));
+  for (int i = 0; i < kPairs; ++i)
+    expected.emplace(i, matched_by_tool(directory_.path(), i, GetParam().options));
 
   int frames = 0;
   FrameAssembler assembler([&](AssembledFrame&& frame) {
@@ -80,8 +86,9 @@ TEST_P(StereodRows, ArriveInAnotherProcessAsStereoMatchMakesThem) {
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {
         const int units = frame.disparity.at(x, y);
-        const float got =
-            units == kInvalidDisparity ? INFINITY : static_cast<float>(units) / static_cast<float>(frame.units_per_pixel);
+        const float got = units == kInvalidDisparity
+                              ? INFINITY
+                              : static_cast<float>(units) / static_cast<float>(frame.units_per_pixel);
         ASSERT_EQ(got, want.at(x, y)) << "frame " << frame.frame << ", pixel (" << x << ", " << y << ")";
       }
     }
@@ -90,7 +97,8 @@ TEST_P(StereodRows, ArriveInAnotherProcessAsStereoMatchMakesThem) {
   TapOptions tap;
   tap.prefix = "E2E";
   listen_for_frames(receiver, tap, assembler);
-  ChildProgram stereod(kBin / "stereod", {"--config", write_config(GetParam().matcher).string()}, directory_.path());
+  ChildProgram stereod(kBin / "stereod", {"--config", write_config(GetParam().matcher).string()},
+                       directory_.path());
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (frames < 3 * kPairs && !HasFailure() && std::chrono::steady_clock::now() < deadline) {
     receiver.receive(std::chrono::milliseconds(100));
@@ -107,16 +115,17 @@ TEST_P(StereodRows, ArriveInAnotherProcessAsStereoMatchMakesThem) {
 
 INSTANTIATE_TEST_SUITE_P(
     E2e, StereodRows,
-    testing::Values(Setting{"thesis", "{preset: thesis, disparities: 48}", {"--preset", "thesis", "--disparities", "48"}},
-                    Setting{"robust", "{preset: robust, disparities: 64}", {"--preset", "robust"}}),
+    testing::Values(
+        Setting{"thesis", "{preset: thesis, disparities: 48}", {"--preset", "thesis", "--disparities", "48"}},
+        Setting{"robust", "{preset: robust, disparities: 64}", {"--preset", "robust"}}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST_F(StereodTest, PlaysARecordingOnceAndEnds) {
   if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
   write_recorded_pairs(directory_.path(), kSize, kPairs);
   const std::filesystem::path file = directory_ / "once.yaml";
-  std::ofstream(file) << "cameras: {source: replay, fps: 0, replay: {folder: ., loop: false}}\nlcm: {url: \"" << kUrl
-                      << "\", prefix: E2E}\n";
+  std::ofstream(file) << "cameras: {source: replay, fps: 0, replay: {folder: ., loop: false}}\nlcm: {url: \""
+                      << kUrl << "\", prefix: E2E}\n";
   int frames = 0;
   FrameAssembler assembler([&](AssembledFrame&& frame) {
     EXPECT_EQ(frame.summary->left_sequence, frames);
@@ -138,11 +147,12 @@ TEST_F(StereodTest, PlaysARecordingOnceAndEnds) {
 TEST_F(StereodTest, InterruptEndsItCleanly) {
   if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
   const std::filesystem::path file = directory_ / "demo.yaml";
-  std::ofstream(file) << "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nlcm: {url: \"" << kUrl
-                      << "\", prefix: E2E}\n";
+  std::ofstream(file) << "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nlcm: {url: \""
+                      << kUrl << "\", prefix: E2E}\n";
   ChildProgram stereod(kBin / "stereod", {"--config", file.string()}, directory_.path());
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (stereod.err_so_far().find("streaming") == std::string::npos && std::chrono::steady_clock::now() < deadline) {
+  while (stereod.err_so_far().find("streaming") == std::string::npos &&
+         std::chrono::steady_clock::now() < deadline) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   stereod.send(SIGINT);
@@ -195,16 +205,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadStart{"UnknownKey", "cameras: {source: synthetic}\nmatcher: {windw: 3}\n",
                  "bad.yaml:2: matcher.windw: is not a known key; the nearest known key is 'window'"},
         BadStart{"NotYaml", "cameras: [\n", "not valid YAML"},
-        BadStart{"MissingPicture", "cameras: {source: replay, replay: {left: gone.png, right: right_00.png}}\n", "gone.png"},
-        BadStart{"OtherCalibrationSize",
-                 "cameras: {source: synthetic}\ncalibration: calibration.yaml\n",
+        BadStart{"MissingPicture",
+                 "cameras: {source: replay, replay: {left: gone.png, right: right_00.png}}\n", "gone.png"},
+        BadStart{"OtherCalibrationSize", "cameras: {source: synthetic}\ncalibration: calibration.yaml\n",
                  "calibration.yaml: the calibration is for images of 320×240, the cameras give 640×480"},
         BadStart{"MissingCalibration", "cameras: {source: synthetic}\ncalibration: gone.yaml\n", "gone.yaml"},
-        BadStart{"ImpossibleIsa", "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nmatcher: {isa: neon}\n",
+        BadStart{"ImpossibleIsa",
+                 "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nmatcher: {isa: neon}\n",
                  "isa is neon, which this CPU or this build does not have"},
         BadStart{"TooManyRows", "cameras: {source: synthetic}\nlcm: {rows_per_message: 200}\n",
                  "lcm.rows_per_message: found 200"},
-        BadStart{"BadLcmUrl", "cameras: {source: synthetic}\nlcm: {url: \"carrier-pigeon://\"}\n", "carrier-pigeon"}),
+        BadStart{"BadLcmUrl", "cameras: {source: synthetic}\nlcm: {url: \"carrier-pigeon://\"}\n",
+                 "carrier-pigeon"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace

@@ -85,7 +85,7 @@ std::int16_t value_of(const Search& found, const MatcherOptions& options) {
     const std::int64_t b = found.cost(k + 1);
     if (std::max(a, b) != m) f = rounded_quotient(8 * (a - b), std::max(a, b) - m);
   }
-  return static_cast<std::int16_t>(16 * d + f);
+  return static_cast<std::int16_t>(std::int64_t{16} * d + f);
 }
 
 /// Section 4, `texture_threshold`.

@@ -7,8 +7,8 @@
 
 namespace stereod {
 
-/// Writes `count` raw pairs of the synthetic scene as left_NN.png and right_NN.png into `folder`, and the cameras'
-/// calibration as calibration.yaml.
+/// Writes `count` raw pairs of the synthetic scene as left_NN.png and right_NN.png into `folder`, and the
+/// cameras' calibration as calibration.yaml.
 void write_recorded_pairs(const std::filesystem::path& folder, Size size, int count);
 
 /// The names of pair `number`.

@@ -31,7 +31,8 @@ int wait_for(pid_t child) {
 
 ChildProgram::ChildProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                            const std::filesystem::path& scratch)
-    : out_(scratch / (program.filename().string() + ".out")), err_(scratch / (program.filename().string() + ".err")) {
+    : out_(scratch / (program.filename().string() + ".out")),
+      err_(scratch / (program.filename().string() + ".err")) {
   std::vector<std::string> words{program.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;

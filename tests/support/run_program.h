@@ -15,8 +15,8 @@ struct ProgramRun {
   std::string err;
 };
 
-/// A program that runs beside the test, without input. Its output goes to files in `scratch`. Still running at
-/// the end of the test, it is killed.
+/// A program that runs beside the test, without input. Its output goes to files in `scratch`. Still running
+/// at the end of the test, it is killed.
 class ChildProgram {
  public:
   ChildProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,

@@ -13,7 +13,8 @@ inline constexpr int kMaxChunks = 4;
 
 /// How the sums are calculated.
 enum class Arithmetic {
-  kPacked,  ///< |L−R| ≤ 126; 16-bit sums are cost·8 + number of the group of 8 disparities: the minimum tells both
+  kPacked,  ///< |L−R| ≤ 126; 16-bit sums are cost·8 + number of the group of 8 disparities: the minimum tells
+            ///< both
   kNarrow,  ///< |L−R| ≤ 126; 16-bit sums are costs, the winner is found by comparing with the minimum
   kRaw,     ///< |L−R| ≤ 255; 16-bit sums are costs
   kWide,    ///< |L−R| ≤ 255; 32-bit sums, for windows whose cost does not fit in 16 bits
@@ -23,14 +24,14 @@ enum class Arithmetic {
 /// k < min(disparities, c − window + 2) can be searched for the window whose last column is c.
 struct Shape {
   Arithmetic arithmetic;
-  int width;          ///< of the image, px
+  int width;  ///< of the image, px
   int min_disparity;
   int disparities;
   int window;
-  int chunk;          ///< disparities in a chunk, a multiple of the kernel's granularity, ≤ kMaxChunk (kWide: any)
+  int chunk;  ///< disparities in a chunk, a multiple of the kernel's granularity, ≤ kMaxChunk (kWide: any)
   int chunks;
-  bool neighbours;    ///< RowWinners::before and after are wanted
-  bool rival;         ///< RowWinners::rival is wanted
+  bool neighbours;  ///< RowWinners::before and after are wanted
+  bool rival;       ///< RowWinners::rival is wanted
   int columns() const { return width - min_disparity; }
   int padded_disparities() const { return chunk * chunks; }
   /// Bytes of a right row as prepare_right_row() writes it.
@@ -46,8 +47,8 @@ struct Winners {
   std::uint32_t* rival;
 };
 
-/// The rows that come into and leave the window. Left rows begin at image column min_disparity, right rows are
-/// as prepare_right_row() wrote them; a row that is not there yet is all zeros.
+/// The rows that come into and leave the window. Left rows begin at image column min_disparity, right rows
+/// are as prepare_right_row() wrote them; a row that is not there yet is all zeros.
 struct RowPairs {
   const std::uint8_t* left_added;
   const std::uint8_t* left_removed;
@@ -65,8 +66,8 @@ struct Scratch {
 struct Kernel {
   int granularity;  ///< disparities in a byte vector; a chunk is a multiple of it
 
-  /// Writes a right row backwards, so that growing disparity means growing address, and with the two halves of
-  /// a chunk interleaved byte by byte, so that widening the bytes to 16 bits leaves disparities in order.
+  /// Writes a right row backwards, so that growing disparity means growing address, and with the two halves
+  /// of a chunk interleaved byte by byte, so that widening the bytes to 16 bits leaves disparities in order.
   void (*prepare_right_row)(const Shape&, const std::uint8_t* right, std::uint8_t* out);
 
   /// Adds a row to the column sums and subtracts the one that leaves.

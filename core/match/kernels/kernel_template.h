@@ -2,11 +2,12 @@
 //
 // Method: for every column c and disparity k the sum of |L−R| over the window's rows is kept in memory as a
 // 16-bit column sum. A new row changes it by the difference that comes in less the one that leaves. Along the
-// row the window's sums of all disparities of a chunk stay in registers: the column sum that comes in is added,
-// the one `window` columns back subtracted. Disparities are the lanes, so the winner is a minimum over lanes.
+// row the window's sums of all disparities of a chunk stay in registers: the column sum that comes in is
+// added, the one `window` columns back subtracted. Disparities are the lanes, so the winner is a minimum over
+// lanes.
 //
-// This header is compiled with instructions that the running CPU may lack. Nothing in it may come from a header
-// whose inline functions other files use too (the linker keeps one copy of those): no std:: functions.
+// This header is compiled with instructions that the running CPU may lack. Nothing in it may come from a
+// header whose inline functions other files use too (the linker keeps one copy of those): no std:: functions.
 #pragma once
 
 #include <cstddef>
@@ -41,19 +42,28 @@ class BlockKernel {
 
   static void add_row(const Shape& shape, const RowPairs& rows, const Scratch& scratch) {
     switch (shape.arithmetic) {
-      case Arithmetic::kPacked: return add_chunks<Arithmetic::kPacked>(shape, rows, scratch);
-      case Arithmetic::kNarrow: return add_chunks<Arithmetic::kNarrow>(shape, rows, scratch);
-      case Arithmetic::kRaw: return add_chunks<Arithmetic::kRaw>(shape, rows, scratch);
-      case Arithmetic::kWide: return wide_row<false>(shape, rows, scratch, {});
+      case Arithmetic::kPacked:
+        return add_chunks<Arithmetic::kPacked>(shape, rows, scratch);
+      case Arithmetic::kNarrow:
+        return add_chunks<Arithmetic::kNarrow>(shape, rows, scratch);
+      case Arithmetic::kRaw:
+        return add_chunks<Arithmetic::kRaw>(shape, rows, scratch);
+      case Arithmetic::kWide:
+        return wide_row<false>(shape, rows, scratch, {});
     }
   }
 
-  static void search_row(const Shape& shape, const RowPairs& rows, const Scratch& scratch, const Winners& winners) {
+  static void search_row(const Shape& shape, const RowPairs& rows, const Scratch& scratch,
+                         const Winners& winners) {
     switch (shape.arithmetic) {
-      case Arithmetic::kPacked: return search_by_size<Arithmetic::kPacked>(shape, rows, scratch, winners);
-      case Arithmetic::kNarrow: return search_by_size<Arithmetic::kNarrow>(shape, rows, scratch, winners);
-      case Arithmetic::kRaw: return search_by_size<Arithmetic::kRaw>(shape, rows, scratch, winners);
-      case Arithmetic::kWide: return wide_row<true>(shape, rows, scratch, winners);
+      case Arithmetic::kPacked:
+        return search_by_size<Arithmetic::kPacked>(shape, rows, scratch, winners);
+      case Arithmetic::kNarrow:
+        return search_by_size<Arithmetic::kNarrow>(shape, rows, scratch, winners);
+      case Arithmetic::kRaw:
+        return search_by_size<Arithmetic::kRaw>(shape, rows, scratch, winners);
+      case Arithmetic::kWide:
+        return wide_row<true>(shape, rows, scratch, winners);
     }
   }
 
@@ -71,7 +81,8 @@ class BlockKernel {
     const Reg added = V::abs_diff_u8(left_added, V::load(right_added));
     const Reg removed = V::abs_diff_u8(left_removed, V::load(right_removed));
     if constexpr (kA == Arithmetic::kRaw) {
-      return {V::sub16(V::even_u8(added), V::even_u8(removed)), V::sub16(V::odd_u8(added), V::odd_u8(removed))};
+      return {V::sub16(V::even_u8(added), V::even_u8(removed)),
+              V::sub16(V::odd_u8(added), V::odd_u8(removed))};
     } else {
       constexpr int kShift = kA == Arithmetic::kPacked ? 3 : 0;
       const Reg change = V::sub8(added, removed);  // fits in a signed byte since |L−R| ≤ 126
@@ -110,17 +121,21 @@ class BlockKernel {
   // --- search ----------------------------------------------------------------------------------------------
 
   template <Arithmetic kA>
-  static void search_by_size(const Shape& shape, const RowPairs& rows, const Scratch& scratch, const Winners& out) {
+  static void search_by_size(const Shape& shape, const RowPairs& rows, const Scratch& scratch,
+                             const Winners& out) {
     switch (shape.chunk / V::kBytes) {
-      case 1: return search_blocks<kA, 1>(shape, rows, scratch, out);
-      case 2: return search_blocks<kA, 2>(shape, rows, scratch, out);
+      case 1:
+        return search_blocks<kA, 1>(shape, rows, scratch, out);
+      case 2:
+        return search_blocks<kA, 2>(shape, rows, scratch, out);
       case 3:
         if constexpr (3 * V::kBytes <= kMaxChunk) return search_blocks<kA, 3>(shape, rows, scratch, out);
         break;
       case 4:
         if constexpr (4 * V::kBytes <= kMaxChunk) return search_blocks<kA, 4>(shape, rows, scratch, out);
         break;
-      default: break;
+      default:
+        break;
     }
   }
 
@@ -131,7 +146,8 @@ class BlockKernel {
   };
 
   template <Arithmetic kA, int kVectors>
-  static void search_blocks(const Shape& shape, const RowPairs& rows, const Scratch& scratch, const Winners& out) {
+  static void search_blocks(const Shape& shape, const RowPairs& rows, const Scratch& scratch,
+                            const Winners& out) {
     Running running[kMaxChunks];
     for (int chunk = 0; chunk < shape.chunks; ++chunk) start_running<kA, kVectors>(running[chunk]);
     const bool keep_sums = shape.neighbours || shape.rival;
@@ -140,15 +156,20 @@ class BlockKernel {
       std::uint32_t best[kBlockColumns];  // cost << 16 | k: the least is the winner, the lowest k on a tie
       for (int chunk = 0; chunk < shape.chunks; ++chunk) {
         std::uint32_t found[kBlockColumns];
-        // All disparities of the chunk can be searched in every column of the block, or some lanes are masked.
+        // All disparities of the chunk can be searched in every column of the block, or some lanes are
+        // masked.
         const int chunk_end = (chunk + 1) * shape.chunk;
         const bool masked = chunk_end > shape.disparities || first - shape.window + 2 < chunk_end;
         if (keep_sums) {
-          masked ? sweep<kA, kVectors, true, true>(shape, rows, scratch, chunk, first, end, running[chunk], found)
-                 : sweep<kA, kVectors, false, true>(shape, rows, scratch, chunk, first, end, running[chunk], found);
+          masked ? sweep<kA, kVectors, true, true>(shape, rows, scratch, chunk, first, end, running[chunk],
+                                                   found)
+                 : sweep<kA, kVectors, false, true>(shape, rows, scratch, chunk, first, end, running[chunk],
+                                                    found);
         } else {
-          masked ? sweep<kA, kVectors, true, false>(shape, rows, scratch, chunk, first, end, running[chunk], found)
-                 : sweep<kA, kVectors, false, false>(shape, rows, scratch, chunk, first, end, running[chunk], found);
+          masked ? sweep<kA, kVectors, true, false>(shape, rows, scratch, chunk, first, end, running[chunk],
+                                                    found)
+                 : sweep<kA, kVectors, false, false>(shape, rows, scratch, chunk, first, end, running[chunk],
+                                                     found);
         }
         merge<kA>(found, end - first, chunk, shape.chunk, best);
       }
@@ -163,19 +184,20 @@ class BlockKernel {
     for (int c = 0; c < kVectors; ++c) {
       for (int lane = 0; lane < kLanes; ++lane) {
         const int k = c * kLanes + lane;
-        running.sums[2 * c * kLanes + lane] = static_cast<std::uint16_t>(kA == Arithmetic::kPacked ? k / 8 : 0);
+        running.sums[2 * c * kLanes + lane] =
+            static_cast<std::uint16_t>(kA == Arithmetic::kPacked ? k / 8 : 0);
         running.sums[(2 * c + 1) * kLanes + lane] =
             static_cast<std::uint16_t>(kA == Arithmetic::kPacked ? (kHalf + k) / 8 : 0);
       }
     }
   }
 
-  // Adds the row to the column sums of [first, end), slides the window along them and writes for each column the
-  // least sum and where it is. kMasked: disparities that cannot be searched are kept from winning. kKeep: all
-  // sums go to scratch.block_sums.
+  // Adds the row to the column sums of [first, end), slides the window along them and writes for each column
+  // the least sum and where it is. kMasked: disparities that cannot be searched are kept from winning. kKeep:
+  // all sums go to scratch.block_sums.
   template <Arithmetic kA, int kVectors, bool kMasked, bool kKeep>
-  static void sweep(const Shape& shape, const RowPairs& rows, const Scratch& scratch, int chunk, int first, int end,
-                    Running& running, std::uint32_t* found) {
+  static void sweep(const Shape& shape, const RowPairs& rows, const Scratch& scratch, int chunk, int first,
+                    int end, Running& running, std::uint32_t* found) {
     constexpr int kChunk = kVectors * V::kBytes;
     const std::ptrdiff_t back = static_cast<std::ptrdiff_t>(shape.window) * kChunk;
     std::uint16_t* sums = chunk_sums(shape, scratch, chunk) + static_cast<std::ptrdiff_t>(first) * kChunk;
@@ -243,8 +265,8 @@ class BlockKernel {
     return kMask.lanes + kMaxChunk - searched;
   }
 
-  // Packed: the least sum in the low half, its lane in the high half. Else: the least sum in the low half, its k
-  // in the high half.
+  // Packed: the least sum in the low half, its lane in the high half. Else: the least sum in the low half,
+  // its k in the high half.
   template <Arithmetic kA, int kVectors>
   static inline std::uint32_t least(const Reg* sums) {
     Reg least = V::min_u16(sums[0], sums[1]);
@@ -261,7 +283,8 @@ class BlockKernel {
 
   // Brings found[] of one chunk to cost << 16 | k and keeps the lesser of it and best[].
   template <Arithmetic kA>
-  static inline void merge(const std::uint32_t* found, int count, int chunk, int chunk_size, std::uint32_t* best) {
+  static inline void merge(const std::uint32_t* found, int count, int chunk, int chunk_size,
+                           std::uint32_t* best) {
     const auto base = static_cast<std::uint32_t>(chunk * chunk_size);
     for (int i = 0; i < count; ++i) {
       const std::uint32_t value = found[i];
@@ -278,8 +301,8 @@ class BlockKernel {
 
   // Writes the winners of the block's columns whose window is complete.
   template <Arithmetic kA>
-  static void finish_block(const Shape& shape, const Scratch& scratch, int first, int end, const std::uint32_t* best,
-                           const Winners& out) {
+  static void finish_block(const Shape& shape, const Scratch& scratch, int first, int end,
+                           const std::uint32_t* best, const Winners& out) {
     constexpr int kShift = kA == Arithmetic::kPacked ? 3 : 0;
     const int skip = shape.window - 1;  // columns before the first complete window
     const int begin = first > skip ? first : skip;
@@ -290,7 +313,8 @@ class BlockKernel {
     const int stride = shape.padded_disparities();
     if (shape.neighbours) {
       for (int column = begin; column < end; ++column) {
-        const std::uint16_t* sums = scratch.block_sums + (column - first) * stride + (best[column - first] & 0xFFFF);
+        const std::uint16_t* sums =
+            scratch.block_sums + (column - first) * stride + (best[column - first] & 0xFFFF);
         out.before[column - skip] = static_cast<std::uint32_t>(sums[-1] >> kShift);
         out.after[column - skip] = static_cast<std::uint32_t>(sums[1] >> kShift);
       }
@@ -312,7 +336,8 @@ class BlockKernel {
     }
   }
 
-  // --- windows that overflow 16 bits -------------------------------------------------------------------------
+  // --- windows that overflow 16 bits
+  // -------------------------------------------------------------------------
 
   // The same method with 32-bit sums in plain loops over the disparities, which the compiler vectorises.
   template <bool kSearch>
@@ -327,20 +352,23 @@ class BlockKernel {
       const std::uint8_t* right_added = rows.right_added + (shape.width - 1 - column);
       const std::uint8_t* right_removed = rows.right_removed + (shape.width - 1 - column);
       for (int k = 0; k < padded; ++k) {
-        const int added = left_added > right_added[k] ? left_added - right_added[k] : right_added[k] - left_added;
-        const int removed =
-            left_removed > right_removed[k] ? left_removed - right_removed[k] : right_removed[k] - left_removed;
+        const int added =
+            left_added > right_added[k] ? left_added - right_added[k] : right_added[k] - left_added;
+        const int removed = left_removed > right_removed[k] ? left_removed - right_removed[k]
+                                                            : right_removed[k] - left_removed;
         sums[k] = static_cast<std::uint16_t>(sums[k] + added - removed);
       }
       if constexpr (kSearch) {
         for (int k = 0; k < padded; ++k) window[k] += static_cast<std::uint32_t>(sums[k]) - sums[k - back];
         const int at = column - shape.window + 1;
-        if (at >= 0) wide_winner(window, at + 1 < shape.disparities ? at + 1 : shape.disparities, at, shape, out);
+        if (at >= 0)
+          wide_winner(window, at + 1 < shape.disparities ? at + 1 : shape.disparities, at, shape, out);
       }
     }
   }
 
-  static void wide_winner(const std::uint32_t* costs, int searched, int at, const Shape& shape, const Winners& out) {
+  static void wide_winner(const std::uint32_t* costs, int searched, int at, const Shape& shape,
+                          const Winners& out) {
     std::uint32_t least = costs[0];
     for (int k = 1; k < searched; ++k) least = costs[k] < least ? costs[k] : least;
     int best = 0;

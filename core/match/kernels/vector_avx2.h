@@ -12,12 +12,16 @@ struct VectorAvx2 {
   using Reg = __m256i;
 
   static Reg load(const void* p) { return _mm256_loadu_si256(static_cast<const __m256i*>(p)); }
-  static Reg load_aligned(const std::uint16_t* p) { return _mm256_load_si256(reinterpret_cast<const __m256i*>(p)); }
+  static Reg load_aligned(const std::uint16_t* p) {
+    return _mm256_load_si256(reinterpret_cast<const __m256i*>(p));
+  }
   static void store(std::uint16_t* p, Reg a) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a); }
   static Reg broadcast8(std::uint8_t value) { return _mm256_set1_epi8(static_cast<char>(value)); }
   static Reg broadcast16(std::uint16_t value) { return _mm256_set1_epi16(static_cast<short>(value)); }
 
-  static Reg abs_diff_u8(Reg a, Reg b) { return _mm256_or_si256(_mm256_subs_epu8(a, b), _mm256_subs_epu8(b, a)); }
+  static Reg abs_diff_u8(Reg a, Reg b) {
+    return _mm256_or_si256(_mm256_subs_epu8(a, b), _mm256_subs_epu8(b, a));
+  }
   static Reg sub8(Reg a, Reg b) { return _mm256_sub_epi8(a, b); }
   static Reg even_u8(Reg a) { return _mm256_and_si256(a, _mm256_set1_epi16(0xFF)); }
   static Reg odd_u8(Reg a) { return _mm256_srli_epi16(a, 8); }
@@ -46,9 +50,11 @@ struct VectorAvx2 {
     for (int pair = 0; pair < kVectors; ++pair) {  // 32 disparities, as 32 bits
       const Reg first = sums[register_of<kVectors>(2 * pair)];
       const Reg second = sums[register_of<kVectors>(2 * pair + 1)];
-      const Reg bytes = _mm256_packs_epi16(_mm256_cmpeq_epi16(first, wanted), _mm256_cmpeq_epi16(second, wanted));
+      const Reg bytes =
+          _mm256_packs_epi16(_mm256_cmpeq_epi16(first, wanted), _mm256_cmpeq_epi16(second, wanted));
       const Reg ordered = _mm256_permute4x64_epi64(bytes, _MM_SHUFFLE(3, 1, 2, 0));  // packs works in halves
-      equal |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_epi8(ordered))) << (32 * pair);
+      equal |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_epi8(ordered)))
+               << (32 * pair);
     }
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
   }

@@ -31,13 +31,15 @@ struct VectorScalar {
   /// |a − b| of unsigned bytes.
   static Reg abs_diff_u8(Reg a, Reg b) {
     return each([&](int i) {
-      return static_cast<std::uint16_t>(distance(low(a, i), low(b, i)) | distance(high(a, i), high(b, i)) << 8);
+      return static_cast<std::uint16_t>(distance(low(a, i), low(b, i)) | distance(high(a, i), high(b, i))
+                                                                             << 8);
     });
   }
   /// a − b of bytes, modulo 256.
   static Reg sub8(Reg a, Reg b) {
     return each([&](int i) {
-      return static_cast<std::uint16_t>(((low(a, i) - low(b, i)) & 0xFF) | ((high(a, i) - high(b, i)) & 0xFF) << 8);
+      return static_cast<std::uint16_t>(((low(a, i) - low(b, i)) & 0xFF) | ((high(a, i) - high(b, i)) & 0xFF)
+                                                                               << 8);
     });
   }
   /// The even bytes, the odd bytes, as 16-bit lanes: unsigned, and signed times 2^kShift.
@@ -49,11 +51,15 @@ struct VectorScalar {
   }
   template <int kShift>
   static Reg even_s8(Reg a) {
-    return each([&](int i) { return static_cast<std::uint16_t>(static_cast<std::int8_t>(low(a, i)) * (1 << kShift)); });
+    return each([&](int i) {
+      return static_cast<std::uint16_t>(static_cast<std::int8_t>(low(a, i)) * (1 << kShift));
+    });
   }
   template <int kShift>
   static Reg odd_s8(Reg a) {
-    return each([&](int i) { return static_cast<std::uint16_t>(static_cast<std::int8_t>(high(a, i)) * (1 << kShift)); });
+    return each([&](int i) {
+      return static_cast<std::uint16_t>(static_cast<std::int8_t>(high(a, i)) * (1 << kShift));
+    });
   }
   /// 16-bit lanes, modulo 65536.
   static Reg add16(Reg a, Reg b) {
@@ -68,8 +74,8 @@ struct VectorScalar {
   static Reg min_u16(Reg a, Reg b) {
     return each([&](int i) { return a.lane[i] < b.lane[i] ? a.lane[i] : b.lane[i]; });
   }
-  /// The least 16-bit lane in the low half, in the high half the first place it has among groups of 8 lanes laid
-  /// over each other (wider vectors fold onto 8 lanes).
+  /// The least 16-bit lane in the low half, in the high half the first place it has among groups of 8 lanes
+  /// laid over each other (wider vectors fold onto 8 lanes).
   static std::uint32_t least_lane(Reg a) {
     std::uint32_t best = 0;
     for (std::uint32_t i = 1; i < 8; ++i) {
@@ -77,8 +83,8 @@ struct VectorScalar {
     }
     return a.lane[best] | best << 16;
   }
-  /// `sums` are 2·kVectors registers, the disparities of a chunk's lower half in the even ones and of its upper
-  /// half in the odd ones. The lowest disparity whose sum equals `wanted`; there is one.
+  /// `sums` are 2·kVectors registers, the disparities of a chunk's lower half in the even ones and of its
+  /// upper half in the odd ones. The lowest disparity whose sum equals `wanted`; there is one.
   template <int kVectors>
   static std::uint32_t first_equal(const Reg* sums, Reg wanted) {
     for (int half = 0; half < 2; ++half) {

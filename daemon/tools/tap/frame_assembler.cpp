@@ -46,8 +46,8 @@ bool is_sane(const frame_t& m) {
 void decode_row(const disparity_rows_t& m, int row, std::int16_t* out) {
   const std::uint8_t* in =
       m.data.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(m.width * m.bytes_per_value);
-  for (int x = 0; x < m.width; ++x) {
-    const int value = m.bytes_per_value == 1 ? in[x] : in[2 * x] | in[2 * x + 1] << 8;
+  for (int x = 0; x < m.width; ++x, in += m.bytes_per_value) {
+    const int value = m.bytes_per_value == 1 ? in[0] : in[0] | in[1] << 8;
     const bool valid = value != m.invalid && value <= std::numeric_limits<std::int16_t>::max();
     out[x] = valid ? static_cast<std::int16_t>(value) : kInvalidDisparity;
   }

@@ -16,7 +16,7 @@ namespace stereod {
 /// How a message lies on the wire after its fingerprint, a letter a field: b 1 byte, i 4 bytes, d 8 bytes,
 /// s a string (its length with the closing zero, then that), v a byte array (its length, then the bytes).
 template <typename Message>
-inline constexpr std::string_view kWireLayout = "";
+inline constexpr std::string_view kWireLayout;
 template <>
 inline constexpr std::string_view kWireLayout<disparity_rows_t> = "ddiiiiiiibiv";
 template <>
