@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <string>
 
 #include "core/match/isa.h"
 #include "core/match/prefilter.h"

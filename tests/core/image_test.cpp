@@ -60,9 +60,9 @@ TEST(Image, MovesItsPixelsAndDoesNotCopy) {
 }
 
 TEST(ImageView, StepsFromRowToRowByItsStrideInBytes) {
-  std::vector<std::int16_t> memory(5 * 4);
+  std::vector<std::int16_t> memory(20);
   for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = static_cast<std::int16_t>(i);
-  // Three columns of five, beginning at the second.
+  // Three columns of five, beginning at the second, and all four rows.
   const ImageView<std::int16_t> view(memory.data() + 1, 3, 4, 5 * sizeof(std::int16_t));
   EXPECT_EQ(view.at(0, 0), 1);
   EXPECT_EQ(view.at(2, 3), 5 * 3 + 3);

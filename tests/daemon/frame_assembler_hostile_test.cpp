@@ -89,7 +89,7 @@ constexpr std::array<std::int32_t, 16> kHostile = {0,
 TEST(FrameAssembler, IgnoresSizesThatDoNotFit) {
   AssemblerFixture f;
   int tried = 0;
-  const auto take = [&](disparity_rows_t m) {
+  const auto take = [&](const disparity_rows_t& m) {
     f.assembler.take(m);
     ++tried;
   };

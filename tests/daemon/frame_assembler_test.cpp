@@ -73,7 +73,7 @@ TEST(FrameAssembler, ReadsOneByteValuesAndOddInvalids) {
   m.bytes_per_value = 1;
   m.scale = 1;
   m.invalid = 255;
-  m.data.assign(kWidth * kHeight, 9);
+  m.data.assign(std::size_t{kWidth} * kHeight, 9);
   m.data[0] = 255;
   m.data[1] = 254;
   m.size = kWidth * kHeight;
@@ -212,6 +212,7 @@ TEST(FrameAssembler, FollowsADaemonThatWasStartedAgain) {
 /// Messages overtake each other by up to three places, as datagrams do, never by a frame.
 void overtake(std::vector<Message>& messages, Random& random) {
   std::vector<std::pair<int, Message>> places;
+  places.reserve(messages.size());
   for (const Message& message : messages) {
     places.emplace_back(static_cast<int>(places.size()) + random.between(0, 3), message);
   }

@@ -37,7 +37,7 @@ BusError error_of(const std::string& url) {
 struct BadUrl {
   const char* url;
   const char* complaint;
-  friend void PrintTo(const BadUrl& bad, std::ostream* out) { *out << bad.url; }
+  friend std::ostream& operator<<(std::ostream& out, const BadUrl& bad) { return out << bad.url; }
 };
 
 class BadUrls : public testing::TestWithParam<BadUrl> {};

@@ -23,7 +23,7 @@ inline std::int64_t utime_of(std::int64_t frame) {
 
 /// The wire value of a pixel in these tests: another for each frame, row and column, sometimes invalid.
 inline int value_at(std::int64_t frame, int x, int y) {
-  const int value = static_cast<int>((frame % 1000 * 31 + y * 17 + x * 5) % 1000);
+  const int value = static_cast<int>((frame % 1000 * 31 + std::int64_t{y} * 17 + std::int64_t{x} * 5) % 1000);
   return value % 7 == 0 ? 65535 : value;
 }
 
