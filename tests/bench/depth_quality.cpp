@@ -1,0 +1,125 @@
+// How good the depth is: our presets and OpenCV's matchers on pictures with ground truth.
+//
+// bad-1 is the share of pixels that are off by more than 1 px, over all whose truth is known (an unmatched
+// one counts as bad) and over the matched ones; all shares are in percent. See --help for the options.
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <opencv2/core/utility.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/bench/quality_arguments.h"
+#include "tests/bench/quality_matchers.h"
+#include "tests/bench/quality_pictures.h"
+#include "tests/bench/quality_report.h"
+#include "tests/bench/stereo_sets.h"
+
+namespace stereod::bench {
+namespace {
+
+/// Grey levels a pixel of disparity in the pictures whose squared difference is taken.
+double grey_per_px(int disparities) { return 255.0 / disparities; }
+
+SetResult judge(const QualityMatcher& matcher, const StereoSet& set, int disparities) {
+  const DisparityImage found = matcher.match(set, disparities);
+  return {set.name,
+          evaluate(found.view(), matcher.units_per_pixel, set.truth.view(), grey_per_px(disparities))};
+}
+
+MatcherResult judge(const QualityMatcher& matcher, const std::vector<StereoSet>& sets) {
+  MatcherResult result{matcher.name, matcher.settings, {}};
+  for (const StereoSet& set : sets) result.sets.push_back(judge(matcher, set, set.disparities));
+  return result;
+}
+
+/// BM first.
+std::vector<QualityMatcher> contestants(const QualityArguments& arguments) {
+  std::vector<QualityMatcher> all = {opencv_bm(), opencv_sgbm_3way()};
+  for (const char* preset : {"thesis", "fast", "robust"}) {
+    all.push_back(own_matcher(preset, matcher_preset(preset).value()));
+  }
+  if (arguments.custom) all.push_back(own_matcher("custom", *arguments.custom));
+  std::vector<QualityMatcher> wanted;
+  for (const QualityMatcher& matcher : all) {
+    const std::string name = matcher.name.substr(0, matcher.name.find(' '));
+    const auto& names = arguments.matchers;
+    if (names.empty() || name == "BM" || std::count(names.begin(), names.end(), name) > 0) {
+      wanted.push_back(matcher);
+    }
+  }
+  return wanted;
+}
+
+void print_results(const std::vector<QualityMatcher>& matchers, const std::vector<StereoSet>& sets) {
+  std::vector<MatcherResult> results;
+  for (const QualityMatcher& matcher : matchers) results.push_back(judge(matcher, sets));
+  const MatcherResult& bm = results.front();
+  for (const MatcherResult& result : results) print_table(result, bm);
+  std::cout << "\n";
+  for (const MatcherResult& result : results) {
+    if (result.name == "robust" || result.name == "custom") print_trust_against(result, bm);
+    if (result.name == "fast" || result.name == "custom") print_coverage_against(result, bm);
+  }
+}
+
+/// The comparison of the thesis' section 3.6.
+void print_thesis_comparison(const std::vector<StereoSet>& sets) {
+  const auto tsukuba = std::find_if(sets.begin(), sets.end(),
+                                    [](const StereoSet& set) { return set.name == "mb2001_tsukuba"; });
+  if (tsukuba == sets.end()) return;
+  constexpr int kDisparities = 64;
+  std::cout << "\nAs in the thesis, section 3.6: Tsukuba, 64 disparities, 11x11. Mean squared difference of "
+               "8-bit pictures (here "
+            << grey_per_px(kDisparities)
+            << " grey levels a px,\nover the known pixels; the thesis does not say its own scale): thesis "
+               "OpenCV 6457, its naive matcher 4746.\n";
+  std::vector<MatcherResult> results;
+  for (const QualityMatcher& matcher :
+       {opencv_bm_without_tests(), own_matcher("thesis", matcher_preset("thesis").value())}) {
+    results.push_back({matcher.name, matcher.settings, {judge(matcher, *tsukuba, kDisparities)}});
+  }
+  print_squared_differences(results);
+}
+
+/// Left picture, ground truth, BM and, where they take part, robust and custom.
+void write_pictures(const std::filesystem::path& folder, const std::vector<QualityMatcher>& matchers,
+                    const std::vector<StereoSet>& sets) {
+  std::filesystem::create_directories(folder);
+  for (const StereoSet& set : sets) {
+    std::vector<FoundDisparity> found;
+    for (const QualityMatcher& matcher : matchers) {
+      if (matcher.name != "BM" && matcher.name != "robust" && matcher.name != "custom") continue;
+      found.push_back({matcher.match(set, set.disparities), matcher.units_per_pixel});
+    }
+    write_comparison(folder / (set.name + ".png"), set, found);
+  }
+  std::cout << "\nPictures are in " << folder.string()
+            << ": left picture, ground truth, BM, robust (then custom).\n";
+}
+
+int run(const QualityArguments& arguments) {
+  const StereoSets found = load_stereo_sets(arguments.sets);
+  for (const std::string& missing : found.missing) std::cout << "skipped: " << missing << "\n";
+  if (found.sets.empty()) return 1;
+  const std::vector<QualityMatcher> matchers = contestants(arguments);
+  std::cout << "OpenCV " << CV_VERSION << ", " << found.sets.size()
+            << " sets; bad-1: off by more than 1 px, % of all known pixels and of the matched ones.\n";
+  print_results(matchers, found.sets);
+  print_thesis_comparison(found.sets);
+  if (arguments.pictures) write_pictures(*arguments.pictures, matchers, found.sets);
+  return 0;
+}
+
+}  // namespace
+}  // namespace stereod::bench
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  try {
+    return stereod::bench::run(stereod::bench::parse_quality_arguments(argc, argv));
+  } catch (const std::exception& error) {
+    std::cerr << "depth_quality: " << error.what() << "\n";
+    return 2;
+  }
+}

@@ -1,0 +1,72 @@
+#include "tests/bench/npz_file.h"
+
+#include <zlib.h>
+
+#include <bit>
+#include <cstring>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "daemon/config/file_error.h"
+#include "daemon/imagefile/file_bytes.h"
+
+namespace stereod::bench {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+using Bytes = std::vector<std::uint8_t>;
+
+std::size_t number_at(const Bytes& bytes, std::size_t place) {
+  return place + 1 < bytes.size() ? bytes[place] + std::size_t{256} * bytes[place + 1] : 0;
+}
+
+/// The first file of a ZIP archive; empty if that is not deflated or is damaged. `most` limits its size.
+Bytes inflate_first(Bytes zip, std::size_t most) {
+  const std::size_t start = 30 + number_at(zip, 26) + number_at(zip, 28);
+  constexpr std::size_t kDeflated = 8;
+  if (start >= zip.size() || std::memcmp(zip.data(), "PK\3\4", 4) != 0 || number_at(zip, 8) != kDeflated) {
+    return {};
+  }
+  Bytes plain(most);
+  z_stream stream{};
+  stream.next_in = zip.data() + start;
+  stream.avail_in = static_cast<uInt>(zip.size() - start);
+  stream.next_out = plain.data();
+  stream.avail_out = static_cast<uInt>(plain.size());
+  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) return {};
+  const bool whole = inflate(&stream, Z_FINISH) == Z_STREAM_END;
+  plain.resize(whole ? stream.total_out : 0);
+  inflateEnd(&stream);
+  return plain;
+}
+
+}  // namespace
+
+Image<float> read_npz_floats(const std::filesystem::path& path) {
+  constexpr std::size_t kLargest = 64'000'000;
+  constexpr std::size_t kPreamble = 10;  // magic, version 1.0, length of the header
+  const Bytes npy = inflate_first(read_file_bytes(path), kLargest);
+  const std::size_t data = kPreamble + number_at(npy, 8);
+  if (data > npy.size()) throw FileError(path.string() + ": holds no deflated array");
+
+  const std::string header(npy.begin() + kPreamble, npy.begin() + static_cast<std::ptrdiff_t>(data));
+  const std::regex wanted(
+      "'descr': '<f4', 'fortran_order': False, 'shape': \\(([0-9]{1,4}), ([0-9]{1,4})\\)");
+  std::smatch shape;
+  if (!std::regex_search(header, shape, wanted)) {
+    throw FileError(path.string() + ": its first array is not a picture of 32-bit floats");
+  }
+  Image<float> picture(std::stoi(shape[2]), std::stoi(shape[1]));
+  const std::size_t row_bytes = static_cast<std::size_t>(picture.width()) * sizeof(float);
+  if (npy.size() - data != row_bytes * static_cast<std::size_t>(picture.height())) {
+    throw FileError(path.string() + ": its first array has not the size that it claims");
+  }
+  for (int y = 0; y < picture.height(); ++y) {
+    std::memcpy(picture.row(y), npy.data() + data + row_bytes * static_cast<std::size_t>(y), row_bytes);
+  }
+  return picture;
+}
+
+}  // namespace stereod::bench

@@ -1,0 +1,14 @@
+// NumPy's file of arrays, as far as one picture of floats in it goes.
+#pragma once
+
+#include <filesystem>
+
+#include "core/image.h"
+
+namespace stereod::bench {
+
+/// The first array of an .npz: two dimensions, little-endian 32-bit floats, row by row, stored deflated (a
+/// ZIP archive, APPNOTE.TXT 4.3.7, of NumPy's format .npy, NEP 1). Throws FileError for anything else.
+Image<float> read_npz_floats(const std::filesystem::path& path);
+
+}  // namespace stereod::bench

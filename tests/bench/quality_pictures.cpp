@@ -1,0 +1,69 @@
+#include "tests/bench/quality_pictures.h"
+
+#include <cmath>
+
+#include "daemon/imagefile/disparity_picture.h"
+#include "daemon/imagefile/write_image.h"
+#include "tests/bench/bench_images.h"
+
+namespace stereod::bench {
+namespace {
+
+constexpr int kGap = 4;
+
+ColorImage color_of(GreyView grey) {
+  ColorImage color(grey.size());
+  for (int y = 0; y < grey.height(); ++y) {
+    for (int x = 0; x < grey.width(); ++x) {
+      color.at(x, y) = {grey.at(x, y), grey.at(x, y), grey.at(x, y)};
+    }
+  }
+  return color;
+}
+
+DisparityImage disparity_of(const Image<float>& truth) {
+  DisparityImage disparity(truth.size());
+  for (int y = 0; y < truth.height(); ++y) {
+    for (int x = 0; x < truth.width(); ++x) {
+      const float value = truth.at(x, y);
+      disparity.at(x, y) = std::isfinite(value)
+                               ? static_cast<std::int16_t>(std::lround(value * kSubpixelUnits))
+                               : kInvalidDisparity;
+    }
+  }
+  return disparity;
+}
+
+ColorImage side_by_side(const std::vector<ColorImage>& pictures) {
+  int width = -kGap;
+  for (const ColorImage& picture : pictures) width += picture.width() + kGap;
+  ColorImage whole(width, pictures.front().height());
+  int x = 0;
+  for (const ColorImage& picture : pictures) {
+    const ImageView<Rgb> place(&whole.at(x, 0), picture.width(), picture.height(), whole.view().stride());
+    copy_pixels(picture.view(), place);
+    x += picture.width() + kGap;
+  }
+  return whole;
+}
+
+}  // namespace
+
+void write_comparison(const std::filesystem::path& path, const StereoSet& set,
+                      const std::vector<FoundDisparity>& found) {
+  const DisparityImage truth = disparity_of(set.truth);
+  DisparityPictureOptions options;
+  options.range = typical_range(truth.view(), kSubpixelUnits);
+  options.scale_bar = false;
+  std::vector<ColorImage> pictures;
+  pictures.push_back(color_of(view_of(set.left)));
+  pictures.push_back(draw_disparity(truth.view(), kSubpixelUnits, options));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    options.scale_bar = i + 1 == found.size();
+    pictures.push_back(draw_disparity(found[i].image.view(), found[i].units_per_pixel, options));
+  }
+  const ColorImage whole = side_by_side(pictures);
+  write_png(path, whole.view());
+}
+
+}  // namespace stereod::bench

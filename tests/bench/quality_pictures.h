@@ -1,0 +1,22 @@
+// What the matchers found, for a person to look at.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/disparity.h"
+#include "tests/bench/stereo_sets.h"
+
+namespace stereod::bench {
+
+struct FoundDisparity {
+  DisparityImage image;
+  int units_per_pixel = kSubpixelUnits;
+};
+
+/// Writes a PNG: the left picture, the ground truth and each of `found`, side by side, all in the colours of
+/// the ground truth's range. Throws FileError.
+void write_comparison(const std::filesystem::path& path, const StereoSet& set,
+                      const std::vector<FoundDisparity>& found);
+
+}  // namespace stereod::bench

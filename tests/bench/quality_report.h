@@ -1,0 +1,36 @@
+// The tables and sentences of depth_quality.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "daemon/tools/evaluation.h"
+
+namespace stereod::bench {
+
+struct SetResult {
+  std::string set;
+  Evaluation evaluation;
+};
+
+/// What one matcher reached; all matchers have the same sets in the same order, at least one.
+struct MatcherResult {
+  std::string name;
+  std::string settings;
+  std::vector<SetResult> sets;
+};
+
+/// A line for each set and the mean over the sets; behind the figures, by how much they differ from `bm`'s.
+void print_table(const MatcherResult& result, const MatcherResult& bm);
+
+/// On how many sets the matcher has lower bad-1 over matched pixels and at least the density of `bm`; and
+/// where not.
+void print_trust_against(const MatcherResult& result, const MatcherResult& bm);
+
+/// By how much the matcher's mean bad-1 over all known pixels is below that of `bm`, and on how many sets.
+void print_coverage_against(const MatcherResult& result, const MatcherResult& bm);
+
+/// One line for each result on its first set: bad-1, density and mean squared difference.
+void print_squared_differences(const std::vector<MatcherResult>& results);
+
+}  // namespace stereod::bench

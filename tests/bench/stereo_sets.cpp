@@ -1,0 +1,135 @@
+#include "tests/bench/stereo_sets.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <regex>
+#include <stdexcept>
+
+#include "daemon/config/file_error.h"
+#include "daemon/tools/evaluation.h"
+#include "tests/bench/bench_images.h"
+#include "tests/bench/npz_file.h"
+
+namespace stereod::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The first number called `key` in a JSON file. A scanner, because the files hold keys and nulls that
+/// OpenCV's reader refuses, and three numbers of them are all that is wanted.
+std::optional<double> number_in(const std::string& json, const std::string& key) {
+  std::smatch match;
+  const std::regex number("\"" + key + "\"\\s*:\\s*([0-9]+(\\.[0-9]+)?)");
+  if (!std::regex_search(json, match, number)) return std::nullopt;
+  return std::stod(match[1].str());
+}
+
+cv::Mat read_grey_mat(const fs::path& path) {
+  cv::Mat grey = cv::imread(path.string(), cv::IMREAD_GRAYSCALE);
+  if (grey.empty()) throw FileError(path.string() + ": is missing or no picture");
+  return grey;
+}
+
+StereoSet load_set(const std::string& name, const fs::path& left, const fs::path& right, Image<float> truth,
+                   int disparities) {
+  StereoSet set{name, read_grey_mat(left), read_grey_mat(right), std::move(truth), disparities};
+  if (set.left.size() != set.right.size() || view_of(set.left).size() != set.truth.size()) {
+    throw FileError(left.string() + ": the right picture or the ground truth has another size");
+  }
+  return set;
+}
+
+/// Nothing if the folder is no set with ground truth.
+std::optional<StereoSet> load_middlebury(const fs::path& folder) {
+  std::ifstream file(folder / "meta.json");
+  const std::string json{std::istreambuf_iterator<char>(file), {}};
+  const std::optional<double> scale = number_in(json, "gt_scale");
+  const std::optional<double> disparities = number_in(json, "num_disparities_suggested");
+  if (!scale || !disparities) return std::nullopt;
+  return load_set(folder.filename().string(), folder / "left.png", folder / "right.png",
+                  read_ground_truth(folder / "gt.png", *scale), static_cast<int>(*disparities));
+}
+
+fs::path skimage_data() {
+  if (const char* folder = std::getenv("STEREO_SKIMAGE_DATA")) return folder;
+  return "/usr/lib/python3/dist-packages/skimage/data";
+}
+
+class Loader {
+ public:
+  explicit Loader(const std::vector<std::string>& names) : names_(names) {}
+
+  void add_middlebury() {
+    std::vector<fs::path> folders;
+    std::error_code none;
+    for (const fs::directory_entry& entry : fs::directory_iterator(datasets(), none)) {
+      if (wanted(entry.path().filename().string())) folders.push_back(entry.path());
+    }
+    std::sort(folders.begin(), folders.end());
+    for (const fs::path& folder : folders) {
+      if (std::optional<StereoSet> set = load_middlebury(folder)) found_.sets.push_back(std::move(*set));
+    }
+    if (none) {
+      found_.missing.push_back("Middlebury: no folder " + datasets().string() +
+                               "; set STEREO_DATASETS to where the sets are.");
+    }
+  }
+
+  void add_motorcycle() {
+    const fs::path data = skimage_data();
+    if (!wanted("motorcycle")) return;
+    if (!fs::exists(data / "motorcycle_disp.npz")) {
+      found_.missing.push_back("motorcycle: not in " + data.string() +
+                               "; install python3-skimage, or unpack it (apt-get download, dpkg -x) and set "
+                               "STEREO_SKIMAGE_DATA to its folder skimage/data.");
+      return;
+    }
+    found_.sets.push_back(load_set("motorcycle", data / "motorcycle_left.png", data / "motorcycle_right.png",
+                                   read_npz_floats(data / "motorcycle_disp.npz"), 64));
+  }
+
+  void add_aloe() {
+    const fs::path data = "/usr/share/doc/opencv-doc/examples/data";
+    if (!wanted("aloe")) return;
+    if (!fs::exists(data / "aloeGT.png")) {
+      found_.missing.push_back("aloe: not in " + data.string() + "; install opencv-doc.");
+      return;
+    }
+    // Full resolution: the picture's grey values are pixels.
+    found_.sets.push_back(load_set("aloe", data / "aloeL.jpg", data / "aloeR.jpg",
+                                   read_ground_truth(data / "aloeGT.png", 1), 224));
+  }
+
+  StereoSets take() {
+    for (const std::string& name : names_) {
+      const bool known = std::any_of(found_.sets.begin(), found_.sets.end(),
+                                     [&](const StereoSet& set) { return set.name == name; });
+      if (!known) throw std::runtime_error("there is no set called " + name);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  bool wanted(const std::string& name) const {
+    return names_.empty() || std::count(names_.begin(), names_.end(), name) > 0;
+  }
+
+  std::vector<std::string> names_;
+  StereoSets found_;
+};
+
+}  // namespace
+
+StereoSets load_stereo_sets(const std::vector<std::string>& names) {
+  Loader loader(names);
+  loader.add_middlebury();
+  loader.add_motorcycle();
+  loader.add_aloe();
+  return loader.take();
+}
+
+}  // namespace stereod::bench

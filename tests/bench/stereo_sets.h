@@ -1,0 +1,29 @@
+// Stereo pairs whose true disparities are known.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+
+namespace stereod::bench {
+
+struct StereoSet {
+  std::string name;
+  cv::Mat left, right;  ///< grey, rectified, both of the same size
+  Image<float> truth;   ///< px in the left picture; unknown is +infinity
+  int disparities = 0;  ///< how many to search, from 0; a multiple of 16, as OpenCV wants it
+};
+
+struct StereoSets {
+  std::vector<StereoSet> sets;
+  std::vector<std::string> missing;  ///< what is not there and how to get it, a sentence each
+};
+
+/// The Middlebury sets of datasets(), by name, then Motorcycle (Debian's package python3-skimage, or the
+/// folder STEREO_SKIMAGE_DATA) and Aloe (opencv-doc). `names` restricts them; empty is all. Throws FileError
+/// for a set that is there but cannot be read, std::runtime_error for a name that there is no set of.
+StereoSets load_stereo_sets(const std::vector<std::string>& names);
+
+}  // namespace stereod::bench
