@@ -75,7 +75,7 @@ class Loader {
     }
     if (none) {
       found_.missing.push_back("Middlebury: no folder " + datasets().string() +
-                               "; set STEREO_DATASETS to where the sets are.");
+                               "; set STEREO_DATASETS to where the sets are");
     }
   }
 
@@ -85,7 +85,7 @@ class Loader {
     if (!fs::exists(data / "motorcycle_disp.npz")) {
       found_.missing.push_back("motorcycle: not in " + data.string() +
                                "; install python3-skimage, or unpack it (apt-get download, dpkg -x) and set "
-                               "STEREO_SKIMAGE_DATA to its folder skimage/data.");
+                               "STEREO_SKIMAGE_DATA to its folder skimage/data");
       return;
     }
     found_.sets.push_back(load_set("motorcycle", data / "motorcycle_left.png", data / "motorcycle_right.png",
@@ -96,7 +96,7 @@ class Loader {
     const fs::path data = "/usr/share/doc/opencv-doc/examples/data";
     if (!wanted("aloe")) return;
     if (!fs::exists(data / "aloeGT.png")) {
-      found_.missing.push_back("aloe: not in " + data.string() + "; install opencv-doc.");
+      found_.missing.push_back("aloe: not in " + data.string() + "; install opencv-doc");
       return;
     }
     // Full resolution: the picture's grey values are pixels.
@@ -108,7 +108,10 @@ class Loader {
     for (const std::string& name : names_) {
       const bool known = std::any_of(found_.sets.begin(), found_.sets.end(),
                                      [&](const StereoSet& set) { return set.name == name; });
-      if (!known) throw std::runtime_error("there is no set called " + name);
+      if (known) continue;
+      std::string sentence = "there is no set called " + name;
+      for (const std::string& missing : found_.missing) sentence += "; " + missing;
+      throw std::runtime_error(sentence);
     }
     return std::move(found_);
   }

@@ -18,7 +18,7 @@ struct StereoSet {
 
 struct StereoSets {
   std::vector<StereoSet> sets;
-  std::vector<std::string> missing;  ///< what is not there and how to get it, a sentence each
+  std::vector<std::string> missing;  ///< what is not there and how to get it
 };
 
 /// The Middlebury sets of datasets(), by name, then Motorcycle (Debian's package python3-skimage, or the
