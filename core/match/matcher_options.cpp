@@ -66,7 +66,8 @@ std::optional<MatcherOptions> matcher_preset(std::string_view name) {
     options.subpixel = false;
     return options;
   }
-  // Chosen on the Middlebury sets, see docs/measurements.md; a cap of 20 instead of OpenCV's 31 costs nothing.
+  // Chosen on the Middlebury sets, see docs/measurements.md; a cap of 20 instead of OpenCV's 31 costs
+  // nothing.
   options.prefilter_cap = 20;
   if (name == "fast") return options;
   if (name == "robust") {

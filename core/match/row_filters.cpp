@@ -8,37 +8,47 @@ namespace {
 
 std::size_t at(int x) { return static_cast<std::size_t>(x); }
 
-// Offset of the vertex of two lines of equal and opposite slope through three costs, in 1/16 px, −8…8.
-// Doubles hold every number here exactly, and a quotient of such numbers that is not a half is too far from
-// one to be rounded to it: the result is that of integer arithmetic, but vectors can do it.
-double vertex_offset(std::int32_t before, std::int32_t cost, std::int32_t after) {
+// Offset of the vertex of two lines of equal and opposite slope through three costs, in 1/16 px, −8…8. Real
+// holds eight times every cost exactly, and a quotient of such numbers that is not a half is too far from one
+// to be rounded to it: the result is that of integer arithmetic, but vectors can do it.
+template <typename Real>
+Real vertex_offset(std::int32_t before, std::int32_t cost, std::int32_t after) {
   const std::int32_t height = (before > after ? before : after) - cost;
-  const double offset = 8.0 * (before - after) / (height > 0 ? height : 1);
-  return offset < 0 ? offset - 0.5 : offset + 0.5;
+  const std::int32_t rise = 8 * (before - after);
+  const auto rounding =
+      static_cast<Real>(rise < 0 ? -1 : 1) / 2;  // chosen by an integer: that becomes no branch
+  return static_cast<Real>(rise) / static_cast<Real>(height > 0 ? height : 1) + rounding;
+}
+
+template <typename Real>
+void write_subpixel(const RowWinners& winners, const MatcherOptions& options, std::int16_t* __restrict out) {
+  const int first = winners.first;
+  const std::uint16_t* __restrict index = winners.index.data();
+  const std::uint32_t* __restrict cost = winners.cost.data();
+  const std::uint32_t* __restrict before = winners.before.data();
+  const std::uint32_t* __restrict after = winners.after.data();
+  for (int x = first; x < winners.end; ++x) {
+    const int k = index[x];
+    const int last = options.disparities - 1 < x - first ? options.disparities - 1 : x - first;
+    const auto offset = static_cast<std::int32_t>(vertex_offset<Real>(static_cast<std::int32_t>(before[x]),
+                                                                      static_cast<std::int32_t>(cost[x]),
+                                                                      static_cast<std::int32_t>(after[x])));
+    const bool inside = (k > 0) & (k < last);
+    out[x] = static_cast<std::int16_t>(kSubpixelUnits * (options.min_disparity + k) + (inside ? offset : 0));
+  }
 }
 
 }  // namespace
 
 void write_disparities(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept {
-  const int first = winners.first;
   if (!options.subpixel) {
-    for (int x = first; x < winners.end; ++x) {
+    for (int x = winners.first; x < winners.end; ++x) {
       out[x] = static_cast<std::int16_t>(options.min_disparity + winners.index[at(x)]);
     }
-    return;
-  }
-  const std::uint16_t* index = winners.index.data();
-  const std::uint32_t* cost = winners.cost.data();
-  const std::uint32_t* before = winners.before.data();
-  const std::uint32_t* after = winners.after.data();
-  for (int x = first; x < winners.end; ++x) {
-    const int k = index[x];
-    const int last = options.disparities - 1 < x - first ? options.disparities - 1 : x - first;
-    const auto offset = static_cast<std::int32_t>(vertex_offset(static_cast<std::int32_t>(before[x]),
-                                                                static_cast<std::int32_t>(cost[x]),
-                                                                static_cast<std::int32_t>(after[x])));
-    const bool inside = (k > 0) & (k < last);
-    out[x] = static_cast<std::int16_t>(kSubpixelUnits * (options.min_disparity + k) + (inside ? offset : 0));
+  } else if (options.cost == Cost::kSad) {
+    write_subpixel<float>(winners, options, out);  // costs stay below 2^18
+  } else {
+    write_subpixel<double>(winners, options, out);
   }
 }
 
@@ -54,28 +64,27 @@ void reject_ambiguous(const RowWinners& winners, int uniqueness_ratio, std::int1
   }
 }
 
-LeftRightCheck::LeftRightCheck(int width) : claim_cost_(at(width)), claim_index_(at(width)) {}
+LeftRightCheck::LeftRightCheck(int width) : claims_(at(width)) {}
 
+// A claim is cost and k in one number. Of the left pixels that claim the same right one, the lowest x has the
+// lowest k, so the least number is the claim that stands.
 void LeftRightCheck::reject(const RowWinners& winners, const MatcherOptions& options,
                             std::int16_t* out) noexcept {
-  std::fill(claim_cost_.begin(), claim_cost_.end(), std::numeric_limits<std::uint32_t>::max());
+  std::fill(claims_.begin(), claims_.end(), std::numeric_limits<std::uint64_t>::max());
+  const std::uint16_t* index = winners.index.data();
+  const std::uint32_t* cost = winners.cost.data();
   for (int x = winners.first; x < winners.end; ++x) {
-    const std::size_t claimed = at(x - options.min_disparity - winners.index[at(x)]);
-    if (winners.cost[at(x)] < claim_cost_[claimed]) {
-      claim_cost_[claimed] = winners.cost[at(x)];
-      claim_index_[claimed] = winners.index[at(x)];
-    }
+    const std::uint64_t claim = std::uint64_t{cost[x]} << 16 | index[x];
+    std::uint64_t& standing = claims_[at(x - options.min_disparity - index[x])];
+    standing = claim < standing ? claim : standing;
   }
   for (int x = winners.first; x < winners.end; ++x) {
-    const int k = winners.index[at(x)];
-    const int standing = claim_index_[at(x - options.min_disparity - k)];
-    if (std::abs(standing - k) > options.left_right_max_diff) out[x] = kInvalidDisparity;
+    const int standing = static_cast<int>(claims_[at(x - options.min_disparity - index[x])] & 0xFFFF);
+    out[x] = std::abs(standing - index[x]) > options.left_right_max_diff ? kInvalidDisparity : out[x];
   }
 }
 
-std::size_t LeftRightCheck::scratch_bytes() const noexcept {
-  return claim_cost_.size() * sizeof(claim_cost_[0]) + claim_index_.size() * sizeof(claim_index_[0]);
-}
+std::size_t LeftRightCheck::scratch_bytes() const noexcept { return claims_.size() * sizeof(claims_[0]); }
 
 TextureCheck::TextureCheck(int width) : column_sums_(at(width)) {}
 

@@ -26,8 +26,7 @@ class LeftRightCheck {
   std::size_t scratch_bytes() const noexcept;
 
  private:
-  AlignedBuffer<std::uint32_t> claim_cost_;  // by column of the right image
-  AlignedBuffer<std::uint16_t> claim_index_;
+  AlignedBuffer<std::uint64_t> claims_;  // by column of the right image
 };
 
 /// Invalidates pixels whose window has too little horizontal gradient to be matched. Works on xsobel rows.

@@ -1,8 +1,5 @@
 // Drives the vector kernels: which arithmetic fits, how the disparities are cut into chunks, whose memory is
 // used.
-#include <algorithm>
-#include <vector>
-
 #include "core/match/isa.h"
 #include "core/match/kernels/kernel.h"
 #include "core/match/row_search.h"
@@ -65,54 +62,47 @@ class SimdSearch final : public RowSearch {
   SimdSearch(const MatcherOptions& options, int width)
       : kernel_(kernel_for(resolve_isa(options.isa))),
         shape_(shape_for(options, width, kernel_)),
-        left_rows_(size(options.window) + 1),
-        right_rows_((size(options.window) + 1) * right_stride()),
-        no_row_(std::max(size(width), right_stride())),
+        right_row_(size(shape_.right_row_bytes())),
+        differences_(size(shape_.window) * difference_row_bytes()),
         column_sums_(size(shape_.chunks) * size(shape_.window + shape_.columns()) * size(shape_.chunk)),
         block_sums_(size(kernels::kBlockColumns) * size(shape_.padded_disparities()) + 2 * kBlockMargin) {}
 
   void reset() noexcept override {
     column_sums_.fill_zero();
-    rows_added_ = 0;
+    differences_.fill_zero();
+    oldest_ = 0;
   }
 
   void add_row(const std::uint8_t* left, const std::uint8_t* right, RowWinners* winners) noexcept override {
-    const int slots = shape_.window + 1;
-    const int slot = rows_added_ % slots;
-    left_rows_[size(slot)] = left + shape_.min_disparity;
-    kernel_.prepare_right_row(shape_, right, right_row(slot));
-    const bool leaves = rows_added_ >= shape_.window;
-    const int oldest = (slot + 1) % slots;
-    const kernels::RowPairs rows{left_rows_[size(slot)], leaves ? left_rows_[size(oldest)] : no_row_.data(),
-                                 right_row(slot), leaves ? right_row(oldest) : no_row_.data()};
+    kernel_.prepare_right_row(shape_, right, right_row_.data());
+    const kernels::AddedRow row{left + shape_.min_disparity, right_row_.data(),
+                                differences_.data() + size(oldest_) * difference_row_bytes()};
     const kernels::Scratch scratch{column_sums_.data(), block_sums_.data() + kBlockMargin};
-    ++rows_added_;
-    if (winners == nullptr) return kernel_.add_row(shape_, rows, scratch);
+    oldest_ = (oldest_ + 1) % shape_.window;
+    if (winners == nullptr) return kernel_.add_row(shape_, row, scratch);
     const auto at = size(winners->first);
-    kernel_.search_row(shape_, rows, scratch,
+    kernel_.search_row(shape_, row, scratch,
                        {winners->index.data() + at, winners->cost.data() + at, winners->before.data() + at,
                         winners->after.data() + at, winners->rival.data() + at});
   }
 
   std::size_t scratch_bytes() const noexcept override {
-    return right_rows_.size() + no_row_.size() + 2 * (column_sums_.size() + block_sums_.size());
+    return right_row_.size() + differences_.size() + 2 * (column_sums_.size() + block_sums_.size());
   }
 
  private:
   static constexpr std::size_t kBlockMargin =
       64;  // the neighbours of the first and last disparity may be read
 
-  std::size_t right_stride() const { return size(rounded_up(shape_.right_row_bytes(), 64)); }
-  std::uint8_t* right_row(int slot) { return right_rows_.data() + size(slot) * right_stride(); }
+  std::size_t difference_row_bytes() const { return static_cast<std::size_t>(shape_.difference_row_bytes()); }
 
   const Kernel& kernel_;
   Shape shape_;
-  std::vector<const std::uint8_t*> left_rows_;  // the last window + 1 rows, in turn
-  AlignedBuffer<std::uint8_t> right_rows_;      // likewise, as the kernel wants them
-  AlignedBuffer<std::uint8_t> no_row_;          // zeros
+  AlignedBuffer<std::uint8_t> right_row_;    // as the kernel wants it
+  AlignedBuffer<std::uint8_t> differences_;  // of the last `window` rows, in turn
   AlignedBuffer<std::uint16_t> column_sums_;
   AlignedBuffer<std::uint16_t> block_sums_;
-  int rows_added_ = 0;
+  int oldest_ = 0;  // which row of differences leaves next
 };
 
 }  // namespace

@@ -3,52 +3,88 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdlib>
+#include <utility>
 
 namespace stereod {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
 
 SpeckleFilter::SpeckleFilter(Size image)
-    : size_(image),
-      region_(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)),
-      visited_(region_.size()) {}
+    : size_(image), runs_(at(image.width) * at(image.height)), row_first_run_(at(image.height) + 1) {}
 
 void SpeckleFilter::apply(ImageView<std::int16_t> disparity, int max_size, int max_step) noexcept {
   assert(disparity.size() == size_);
-  std::fill(visited_.begin(), visited_.end(), std::uint8_t{0});
+  run_count_ = 0;
   for (int y = 0; y < size_.height; ++y) {
-    for (int x = 0; x < size_.width; ++x) {
-      const Pixel seed{static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
-      const std::size_t count = grow_region(disparity, seed, max_step);
-      if (count > static_cast<std::size_t>(max_size)) continue;
-      for (std::size_t i = 0; i < count; ++i) disparity.at(region_[i].x, region_[i].y) = kInvalidDisparity;
+    row_first_run_[at(y)] = run_count_;
+    cut_row(disparity.row(y), max_step);
+    row_first_run_[at(y) + 1] = run_count_;
+    if (y > 0) join_rows(disparity.row(y - 1), disparity.row(y), y, max_step);
+  }
+  for (int y = 0; y < size_.height; ++y) {
+    for (std::int32_t i = row_first_run_[at(y)]; i < row_first_run_[at(y) + 1]; ++i) {
+      if (runs_[at(root_of(i))].size > max_size) continue;
+      std::fill(disparity.row(y) + runs_[at(i)].first, disparity.row(y) + runs_[at(i)].end,
+                kInvalidDisparity);
     }
   }
 }
 
-std::size_t SpeckleFilter::grow_region(ImageView<std::int16_t> disparity, Pixel seed, int max_step) noexcept {
-  std::size_t count = 0;
-  const auto join = [&](int x, int y) {
-    std::uint8_t& visited = visited_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) +
-                                     static_cast<std::size_t>(x)];
-    if (visited != 0) return;
-    visited = 1;
-    region_[count++] = {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
-  };
-  if (disparity.at(seed.x, seed.y) == kInvalidDisparity) return 0;
-  join(seed.x, seed.y);
-  for (std::size_t next = 0; next < count; ++next) {
-    const Pixel at = region_[next];
-    const int value = disparity.at(at.x, at.y);
-    const auto try_neighbour = [&](int x, int y) {
-      if (x < 0 || y < 0 || x >= size_.width || y >= size_.height) return;
-      const int other = disparity.at(x, y);
-      if (other != kInvalidDisparity && std::abs(other - value) <= max_step) join(x, y);
-    };
-    try_neighbour(at.x - 1, at.y);
-    try_neighbour(at.x + 1, at.y);
-    try_neighbour(at.x, at.y - 1);
-    try_neighbour(at.x, at.y + 1);
+void SpeckleFilter::cut_row(const std::int16_t* row, int max_step) noexcept {
+  int x = 0;
+  while (x < size_.width) {
+    if (row[x] == kInvalidDisparity) {
+      ++x;
+      continue;
+    }
+    const int first = x++;
+    while (x < size_.width && row[x] != kInvalidDisparity && std::abs(row[x] - row[x - 1]) <= max_step) ++x;
+    runs_[at(run_count_)] = {run_count_, x - first, static_cast<std::int16_t>(first),
+                             static_cast<std::int16_t>(x)};
+    ++run_count_;
   }
-  return count;
+}
+
+// Unites the runs of rows y − 1 and y that touch.
+void SpeckleFilter::join_rows(const std::int16_t* upper, const std::int16_t* lower, int y,
+                              int max_step) noexcept {
+  std::int32_t above = row_first_run_[at(y) - 1];
+  std::int32_t below = row_first_run_[at(y)];
+  while (above < row_first_run_[at(y)] && below < row_first_run_[at(y) + 1]) {
+    const Run& a = runs_[at(above)];
+    const Run& b = runs_[at(below)];
+    const int end = std::min(a.end, b.end);
+    for (int x = std::max(a.first, b.first); x < end; ++x) {
+      if (std::abs(upper[x] - lower[x]) <= max_step) {
+        unite(above, below);
+        break;
+      }
+    }
+    const bool above_ends_first = a.end <= b.end;
+    const bool below_ends_first = b.end <= a.end;
+    if (above_ends_first) ++above;
+    if (below_ends_first) ++below;
+  }
+}
+
+std::int32_t SpeckleFilter::root_of(std::int32_t run) noexcept {
+  while (runs_[at(run)].parent != run) {
+    runs_[at(run)].parent = runs_[at(runs_[at(run)].parent)].parent;  // halves the way for the next one
+    run = runs_[at(run)].parent;
+  }
+  return run;
+}
+
+void SpeckleFilter::unite(std::int32_t a, std::int32_t b) noexcept {
+  a = root_of(a);
+  b = root_of(b);
+  if (a == b) return;
+  if (runs_[at(a)].size < runs_[at(b)].size) std::swap(a, b);
+  runs_[at(b)].parent = a;
+  runs_[at(a)].size += runs_[at(b)].size;
 }
 
 }  // namespace stereod

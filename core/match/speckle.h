@@ -1,7 +1,6 @@
 // Removal of small regions, the one filter that needs the whole image.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,21 +10,30 @@ namespace stereod {
 
 /// Makes invalid every region of at most `max_size` pixels; a region is what hangs together up, down, left
 /// and right by steps of at most `max_step` units (docs/matcher.md, section 5). Owns its scratch memory.
+///
+/// Each row is cut into runs of pixels that hang together; runs of neighbouring rows that touch are united
+/// (union-find over runs; Rosenfeld and Pfaltz 1966 label components in this way).
 class SpeckleFilter {
  public:
   explicit SpeckleFilter(Size image);
   void apply(ImageView<std::int16_t> disparity, int max_size, int max_step) noexcept;
 
  private:
-  struct Pixel {
-    std::int16_t x, y;
+  struct Run {
+    std::int32_t parent;  // a run of the same region; itself if it stands for the region
+    std::int32_t size;    // pixels of the region, if it stands for it
+    std::int16_t first, end;
   };
-  // Collects the not yet visited region around `seed` in region_ and returns its size.
-  std::size_t grow_region(ImageView<std::int16_t> disparity, Pixel seed, int max_step) noexcept;
+
+  void cut_row(const std::int16_t* row, int max_step) noexcept;
+  void join_rows(const std::int16_t* upper, const std::int16_t* lower, int y, int max_step) noexcept;
+  std::int32_t root_of(std::int32_t run) noexcept;
+  void unite(std::int32_t a, std::int32_t b) noexcept;
 
   Size size_;
-  std::vector<Pixel> region_;
-  std::vector<std::uint8_t> visited_;
+  std::vector<Run> runs_;  // room for as many as there are pixels; in reading order
+  std::int32_t run_count_ = 0;
+  std::vector<std::int32_t> row_first_run_;  // and one entry for the end
 };
 
 }  // namespace stereod

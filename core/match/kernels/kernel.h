@@ -1,6 +1,7 @@
 // The interface between the simd search and its kernels, one for each instruction set.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace stereod::kernels {
@@ -36,6 +37,10 @@ struct Shape {
   int padded_disparities() const { return chunk * chunks; }
   /// Bytes of a right row as prepare_right_row() writes it.
   int right_row_bytes() const { return 2 * (width + padded_disparities()) + 64; }
+  /// Bytes of one row of differences.
+  std::ptrdiff_t difference_row_bytes() const {
+    return static_cast<std::ptrdiff_t>(columns()) * padded_disparities();
+  }
 };
 
 /// Where a search leaves its results; element 0 is the first column with an answer.
@@ -47,13 +52,13 @@ struct Winners {
   std::uint32_t* rival;
 };
 
-/// The rows that come into and leave the window. Left rows begin at image column min_disparity, right rows
-/// are as prepare_right_row() wrote them; a row that is not there yet is all zeros.
-struct RowPairs {
-  const std::uint8_t* left_added;
-  const std::uint8_t* left_removed;
-  const std::uint8_t* right_added;
-  const std::uint8_t* right_removed;
+/// The row that comes into the window, and the place of the one that leaves it.
+struct AddedRow {
+  const std::uint8_t* left;   ///< begins at image column min_disparity
+  const std::uint8_t* right;  ///< as prepare_right_row() wrote it
+  /// |L−R| of the row that leaves the window, zeros while it fills; becomes that of the row added. 64-byte
+  /// aligned, [chunk][column][k].
+  std::uint8_t* differences;
 };
 
 /// Memory of one search. 64-byte aligned.
@@ -71,10 +76,10 @@ struct Kernel {
   void (*prepare_right_row)(const Shape&, const std::uint8_t* right, std::uint8_t* out);
 
   /// Adds a row to the column sums and subtracts the one that leaves.
-  void (*add_row)(const Shape&, const RowPairs&, const Scratch&);
+  void (*add_row)(const Shape&, const AddedRow&, const Scratch&);
 
   /// The same, and finds the winner of every column that has an answer.
-  void (*search_row)(const Shape&, const RowPairs&, const Scratch&, const Winners&);
+  void (*search_row)(const Shape&, const AddedRow&, const Scratch&, const Winners&);
 };
 
 extern const Kernel kScalarKernel;

@@ -33,53 +33,77 @@ class BlockKernel {
       for (int p = shape.width; p < length; ++p) out[p] = 0;
       return;
     }
+    // Backwards into the upper half of the memory first: what is read there is never written before it was
+    // read.
     const int half = shape.chunk / 2;
-    for (int p = 0; p < shape.width; ++p) out[2 * p] = right[shape.width - 1 - p];
-    for (int p = shape.width; p < length; ++p) out[2 * p] = 0;
-    for (int p = 0; p < length - half; ++p) out[2 * p + 1] = out[2 * (p + half)];
-    for (int p = length - half; p < length; ++p) out[2 * p + 1] = 0;
+    std::uint8_t* backwards = out + length;
+    for (int p = 0; p < shape.width; ++p) backwards[p] = right[shape.width - 1 - p];
+    for (int p = shape.width; p < length; ++p) backwards[p] = 0;
+    interleave(backwards, half, length, out);
   }
 
-  static void add_row(const Shape& shape, const RowPairs& rows, const Scratch& scratch) {
+  static void add_row(const Shape& shape, const AddedRow& row, const Scratch& scratch) {
     switch (shape.arithmetic) {
       case Arithmetic::kPacked:
-        return add_chunks<Arithmetic::kPacked>(shape, rows, scratch);
+        return add_chunks<Arithmetic::kPacked>(shape, row, scratch);
       case Arithmetic::kNarrow:
-        return add_chunks<Arithmetic::kNarrow>(shape, rows, scratch);
+        return add_chunks<Arithmetic::kNarrow>(shape, row, scratch);
       case Arithmetic::kRaw:
-        return add_chunks<Arithmetic::kRaw>(shape, rows, scratch);
+        return add_chunks<Arithmetic::kRaw>(shape, row, scratch);
       case Arithmetic::kWide:
-        return wide_row<false>(shape, rows, scratch, {});
+        return wide_row<false>(shape, row, scratch, {});
     }
   }
 
-  static void search_row(const Shape& shape, const RowPairs& rows, const Scratch& scratch,
+  static void search_row(const Shape& shape, const AddedRow& row, const Scratch& scratch,
                          const Winners& winners) {
     switch (shape.arithmetic) {
       case Arithmetic::kPacked:
-        return search_by_size<Arithmetic::kPacked>(shape, rows, scratch, winners);
+        return search_by_size<Arithmetic::kPacked>(shape, row, scratch, winners);
       case Arithmetic::kNarrow:
-        return search_by_size<Arithmetic::kNarrow>(shape, rows, scratch, winners);
+        return search_by_size<Arithmetic::kNarrow>(shape, row, scratch, winners);
       case Arithmetic::kRaw:
-        return search_by_size<Arithmetic::kRaw>(shape, rows, scratch, winners);
+        return search_by_size<Arithmetic::kRaw>(shape, row, scratch, winners);
       case Arithmetic::kWide:
-        return wide_row<true>(shape, rows, scratch, winners);
+        return wide_row<true>(shape, row, scratch, winners);
     }
   }
 
  private:
+  // out[2p] = in[p], out[2p + 1] = in[p + half] for p < length, 0 where that lies beyond; in may be out +
+  // length.
+  static void interleave(const std::uint8_t* in, int half, int length, std::uint8_t* out) {
+    constexpr int kStep = 32;
+    int p = 0;
+    for (; p + kStep <= length - half; p += kStep) {
+      std::uint8_t step[2 * kStep];
+      for (int i = 0; i < kStep; ++i) {
+        step[2 * i] = in[p + i];
+        step[2 * i + 1] = in[p + half + i];
+      }
+      for (int i = 0; i < 2 * kStep; ++i) out[2 * p + i] = step[i];
+    }
+    for (; p < length; ++p) {
+      const std::uint8_t lower = in[p];
+      const std::uint8_t upper = p + half < length ? in[p + half] : std::uint8_t{0};
+      out[2 * p] = lower;
+      out[2 * p + 1] = upper;
+    }
+  }
+
   // --- column sums -----------------------------------------------------------------------------------------
 
   struct Change {
     Reg even, odd;  // of the lower and of the upper half of the chunk
   };
 
-  // By how much 2·kLanes column sums change: |L−R| of the row added less that of the row removed.
+  // By how much 2·kLanes column sums change: |L−R| of the row added less that of the row removed, whose place
+  // the new one takes.
   template <Arithmetic kA>
-  static inline Change column_change(Reg left_added, Reg left_removed, const std::uint8_t* right_added,
-                                     const std::uint8_t* right_removed) {
-    const Reg added = V::abs_diff_u8(left_added, V::load(right_added));
-    const Reg removed = V::abs_diff_u8(left_removed, V::load(right_removed));
+  static inline Change column_change(Reg left, const std::uint8_t* right, std::uint8_t* differences) {
+    const Reg added = V::abs_diff_u8(left, V::load_once(right));
+    const Reg removed = V::load_aligned(differences);
+    V::store(differences, added);
     if constexpr (kA == Arithmetic::kRaw) {
       return {V::sub16(V::even_u8(added), V::even_u8(removed)),
               V::sub16(V::odd_u8(added), V::odd_u8(removed))};
@@ -100,17 +124,21 @@ class BlockKernel {
     return scratch.column_sums + (chunk * columns + shape.window) * shape.chunk;
   }
 
+  static inline std::uint8_t* chunk_differences(const Shape& shape, const AddedRow& row, int chunk) {
+    return row.differences + static_cast<std::ptrdiff_t>(chunk) * shape.columns() * shape.chunk;
+  }
+
   template <Arithmetic kA>
-  static void add_chunks(const Shape& shape, const RowPairs& rows, const Scratch& scratch) {
+  static void add_chunks(const Shape& shape, const AddedRow& row, const Scratch& scratch) {
     for (int chunk = 0; chunk < shape.chunks; ++chunk) {
       std::uint16_t* sums = chunk_sums(shape, scratch, chunk);
-      for (int column = 0; column < shape.columns(); ++column, sums += shape.chunk) {
-        const Reg added = V::broadcast8(rows.left_added[column]);
-        const Reg removed = V::broadcast8(rows.left_removed[column]);
-        const std::ptrdiff_t at = right_offset(shape, column, chunk * shape.chunk);
+      std::uint8_t* differences = chunk_differences(shape, row, chunk);
+      for (int column = 0; column < shape.columns();
+           ++column, sums += shape.chunk, differences += shape.chunk) {
+        const Reg left = V::broadcast8(row.left[column]);
+        const std::uint8_t* right = row.right + right_offset(shape, column, chunk * shape.chunk);
         for (int c = 0; c < shape.chunk; c += V::kBytes) {
-          const Change change =
-              column_change<kA>(added, removed, rows.right_added + at + c, rows.right_removed + at + c);
+          const Change change = column_change<kA>(left, right + c, differences + c);
           V::store(sums + c, V::add16(V::load_aligned(sums + c), change.even));
           V::store(sums + c + kLanes, V::add16(V::load_aligned(sums + c + kLanes), change.odd));
         }
@@ -121,18 +149,18 @@ class BlockKernel {
   // --- search ----------------------------------------------------------------------------------------------
 
   template <Arithmetic kA>
-  static void search_by_size(const Shape& shape, const RowPairs& rows, const Scratch& scratch,
+  static void search_by_size(const Shape& shape, const AddedRow& row, const Scratch& scratch,
                              const Winners& out) {
     switch (shape.chunk / V::kBytes) {
       case 1:
-        return search_blocks<kA, 1>(shape, rows, scratch, out);
+        return search_blocks<kA, 1>(shape, row, scratch, out);
       case 2:
-        return search_blocks<kA, 2>(shape, rows, scratch, out);
+        return search_blocks<kA, 2>(shape, row, scratch, out);
       case 3:
-        if constexpr (3 * V::kBytes <= kMaxChunk) return search_blocks<kA, 3>(shape, rows, scratch, out);
+        if constexpr (3 * V::kBytes <= kMaxChunk) return search_blocks<kA, 3>(shape, row, scratch, out);
         break;
       case 4:
-        if constexpr (4 * V::kBytes <= kMaxChunk) return search_blocks<kA, 4>(shape, rows, scratch, out);
+        if constexpr (4 * V::kBytes <= kMaxChunk) return search_blocks<kA, 4>(shape, row, scratch, out);
         break;
       default:
         break;
@@ -146,7 +174,7 @@ class BlockKernel {
   };
 
   template <Arithmetic kA, int kVectors>
-  static void search_blocks(const Shape& shape, const RowPairs& rows, const Scratch& scratch,
+  static void search_blocks(const Shape& shape, const AddedRow& row, const Scratch& scratch,
                             const Winners& out) {
     Running running[kMaxChunks];
     for (int chunk = 0; chunk < shape.chunks; ++chunk) start_running<kA, kVectors>(running[chunk]);
@@ -161,14 +189,14 @@ class BlockKernel {
         const int chunk_end = (chunk + 1) * shape.chunk;
         const bool masked = chunk_end > shape.disparities || first - shape.window + 2 < chunk_end;
         if (keep_sums) {
-          masked ? sweep<kA, kVectors, true, true>(shape, rows, scratch, chunk, first, end, running[chunk],
-                                                   found)
-                 : sweep<kA, kVectors, false, true>(shape, rows, scratch, chunk, first, end, running[chunk],
-                                                    found);
+          masked
+              ? sweep<kA, kVectors, true, true>(shape, row, scratch, chunk, first, end, running[chunk], found)
+              : sweep<kA, kVectors, false, true>(shape, row, scratch, chunk, first, end, running[chunk],
+                                                 found);
         } else {
-          masked ? sweep<kA, kVectors, true, false>(shape, rows, scratch, chunk, first, end, running[chunk],
+          masked ? sweep<kA, kVectors, true, false>(shape, row, scratch, chunk, first, end, running[chunk],
                                                     found)
-                 : sweep<kA, kVectors, false, false>(shape, rows, scratch, chunk, first, end, running[chunk],
+                 : sweep<kA, kVectors, false, false>(shape, row, scratch, chunk, first, end, running[chunk],
                                                      found);
         }
         merge<kA>(found, end - first, chunk, shape.chunk, best);
@@ -196,29 +224,29 @@ class BlockKernel {
   // the least sum and where it is. kMasked: disparities that cannot be searched are kept from winning. kKeep:
   // all sums go to scratch.block_sums.
   template <Arithmetic kA, int kVectors, bool kMasked, bool kKeep>
-  static void sweep(const Shape& shape, const RowPairs& rows, const Scratch& scratch, int chunk, int first,
+  static void sweep(const Shape& shape, const AddedRow& row, const Scratch& scratch, int chunk, int first,
                     int end, Running& running, std::uint32_t* found) {
     constexpr int kChunk = kVectors * V::kBytes;
     const std::ptrdiff_t back = static_cast<std::ptrdiff_t>(shape.window) * kChunk;
     std::uint16_t* sums = chunk_sums(shape, scratch, chunk) + static_cast<std::ptrdiff_t>(first) * kChunk;
     std::uint16_t* kept = scratch.block_sums + chunk * kChunk;
-    const std::ptrdiff_t at = right_offset(shape, first, chunk * kChunk);
-    const std::uint8_t* right_added = rows.right_added + at;
-    const std::uint8_t* right_removed = rows.right_removed + at;
+    const std::uint8_t* left = row.left;
+    const std::uint8_t* right = row.right + right_offset(shape, first, chunk * kChunk);
+    std::uint8_t* differences =
+        chunk_differences(shape, row, chunk) + static_cast<std::ptrdiff_t>(first) * kChunk;
     Reg window[2 * kVectors];
 #pragma GCC unroll 8
     for (int i = 0; i < 2 * kVectors; ++i) window[i] = V::load_aligned(running.sums + i * kLanes);
 
     for (int column = first; column < end; ++column) {
-      const Reg left_added = V::broadcast8(rows.left_added[column]);
-      const Reg left_removed = V::broadcast8(rows.left_removed[column]);
+      const Reg left_pixel = V::broadcast8(left[column]);
       const std::uint16_t* mask = nullptr;
       if constexpr (kMasked) mask = mask_for(shape, column, chunk * kChunk, kChunk);
       Reg candidates[2 * kVectors];
 #pragma GCC unroll 4
       for (int c = 0; c < kVectors; ++c) {
-        const Change change = column_change<kA>(left_added, left_removed, right_added + c * V::kBytes,
-                                                right_removed + c * V::kBytes);
+        const Change change =
+            column_change<kA>(left_pixel, right + c * V::kBytes, differences + c * V::kBytes);
         std::uint16_t* even = sums + 2 * c * kLanes;
         std::uint16_t* odd = even + kLanes;
         const Reg sum_even = V::add16(V::load_aligned(even), change.even);
@@ -240,8 +268,8 @@ class BlockKernel {
       }
       found[column - first] = least<kA, kVectors>(candidates);
       sums += kChunk;
-      right_added -= 2;
-      right_removed -= 2;
+      right -= 2;
+      differences += kChunk;
       if constexpr (kKeep) kept += shape.padded_disparities();
     }
 #pragma GCC unroll 8
@@ -341,22 +369,19 @@ class BlockKernel {
 
   // The same method with 32-bit sums in plain loops over the disparities, which the compiler vectorises.
   template <bool kSearch>
-  static void wide_row(const Shape& shape, const RowPairs& rows, const Scratch& scratch, const Winners& out) {
+  static void wide_row(const Shape& shape, const AddedRow& row, const Scratch& scratch, const Winners& out) {
     std::uint32_t window[kMaxChunk * kMaxChunks] = {};
     const int padded = shape.padded_disparities();
     const std::ptrdiff_t back = static_cast<std::ptrdiff_t>(shape.window) * padded;
     std::uint16_t* sums = chunk_sums(shape, scratch, 0);
-    for (int column = 0; column < shape.columns(); ++column, sums += padded) {
-      const int left_added = rows.left_added[column];
-      const int left_removed = rows.left_removed[column];
-      const std::uint8_t* right_added = rows.right_added + (shape.width - 1 - column);
-      const std::uint8_t* right_removed = rows.right_removed + (shape.width - 1 - column);
+    std::uint8_t* differences = row.differences;
+    for (int column = 0; column < shape.columns(); ++column, sums += padded, differences += padded) {
+      const int left = row.left[column];
+      const std::uint8_t* right = row.right + (shape.width - 1 - column);
       for (int k = 0; k < padded; ++k) {
-        const int added =
-            left_added > right_added[k] ? left_added - right_added[k] : right_added[k] - left_added;
-        const int removed = left_removed > right_removed[k] ? left_removed - right_removed[k]
-                                                            : right_removed[k] - left_removed;
-        sums[k] = static_cast<std::uint16_t>(sums[k] + added - removed);
+        const int added = left > right[k] ? left - right[k] : right[k] - left;
+        sums[k] = static_cast<std::uint16_t>(sums[k] + added - differences[k]);
+        differences[k] = static_cast<std::uint8_t>(added);
       }
       if constexpr (kSearch) {
         for (int k = 0; k < padded; ++k) window[k] += static_cast<std::uint32_t>(sums[k]) - sums[k - back];

@@ -12,10 +12,13 @@ struct VectorAvx2 {
   using Reg = __m256i;
 
   static Reg load(const void* p) { return _mm256_loadu_si256(static_cast<const __m256i*>(p)); }
-  static Reg load_aligned(const std::uint16_t* p) {
-    return _mm256_load_si256(reinterpret_cast<const __m256i*>(p));
+  static Reg load_once(const void* p) {
+    Reg a = load(p);
+    asm("" : "+x"(a));
+    return a;
   }
-  static void store(std::uint16_t* p, Reg a) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a); }
+  static Reg load_aligned(const void* p) { return _mm256_load_si256(static_cast<const __m256i*>(p)); }
+  static void store(void* p, Reg a) { _mm256_storeu_si256(static_cast<__m256i*>(p), a); }
   static Reg broadcast8(std::uint8_t value) { return _mm256_set1_epi8(static_cast<char>(value)); }
   static Reg broadcast16(std::uint16_t value) { return _mm256_set1_epi16(static_cast<short>(value)); }
 

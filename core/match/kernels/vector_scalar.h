@@ -19,8 +19,11 @@ struct VectorScalar {
     std::memcpy(&a, p, sizeof(a));
     return a;
   }
-  static Reg load_aligned(const std::uint16_t* p) { return load(p); }
-  static void store(std::uint16_t* p, Reg a) { std::memcpy(p, &a, sizeof(a)); }
+  /// The same, kept in a register: compilers like to load again what an instruction can take from memory,
+  /// which costs twice where a load crosses a cache line.
+  static Reg load_once(const void* p) { return load(p); }
+  static Reg load_aligned(const void* p) { return load(p); }
+  static void store(void* p, Reg a) { std::memcpy(p, &a, sizeof(a)); }
   static Reg broadcast8(std::uint8_t value) { return reinterpret_cast<Reg>(Bytes{} + value); }
   static Reg broadcast16(std::uint16_t value) { return Reg{} + value; }
 

@@ -14,10 +14,13 @@ struct VectorSse {
   using Reg = __m128i;
 
   static Reg load(const void* p) { return _mm_loadu_si128(static_cast<const __m128i*>(p)); }
-  static Reg load_aligned(const std::uint16_t* p) {
-    return _mm_load_si128(reinterpret_cast<const __m128i*>(p));
+  static Reg load_once(const void* p) {
+    Reg a = load(p);
+    asm("" : "+x"(a));
+    return a;
   }
-  static void store(std::uint16_t* p, Reg a) { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a); }
+  static Reg load_aligned(const void* p) { return _mm_load_si128(static_cast<const __m128i*>(p)); }
+  static void store(void* p, Reg a) { _mm_storeu_si128(static_cast<__m128i*>(p), a); }
   static Reg broadcast8(std::uint8_t value) { return _mm_set1_epi8(static_cast<char>(value)); }
   static Reg broadcast16(std::uint16_t value) { return _mm_set1_epi16(static_cast<short>(value)); }
 
