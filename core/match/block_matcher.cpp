@@ -118,7 +118,7 @@ void BlockMatcher::search_row(int y) noexcept {
   std::int16_t* out = raw_row(y - window_radius());
   std::fill_n(out, winners_.first, kInvalidDisparity);
   std::fill(out + winners_.end, out + image_.width, kInvalidDisparity);
-  write_disparities(winners_, options_, out);
+  search_->write(winners_, out);
   if (texture_check_) texture_check_->reject(winners_, options_, out);
   if (options_.uniqueness_ratio > 0) reject_ambiguous(winners_, options_.uniqueness_ratio, out);
   if (left_right_check_) left_right_check_->reject(winners_, options_, out);

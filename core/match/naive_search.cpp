@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "core/match/row_filters.h"
 #include "core/match/row_search.h"
 
 namespace stereod {
@@ -24,6 +25,10 @@ class NaiveSearch final : public RowSearch {
     left_.back() = left;
     right_.back() = right;
     if (winners != nullptr) search(*winners);
+  }
+
+  void write(const RowWinners& winners, std::int16_t* out) const noexcept override {
+    write_disparities(winners, options_, out);
   }
 
   std::size_t scratch_bytes() const noexcept override {

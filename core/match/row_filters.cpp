@@ -3,39 +3,22 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/match/interpolation.h"
+
 namespace stereod {
 namespace {
 
 std::size_t at(int x) { return static_cast<std::size_t>(x); }
 
-// Offset of the vertex of two lines of equal and opposite slope through three costs, in 1/16 px, −8…8. Real
-// holds eight times every cost exactly, and a quotient of such numbers that is not a half is too far from one
-// to be rounded to it: the result is that of integer arithmetic, but vectors can do it.
-template <typename Real>
-Real vertex_offset(std::int32_t before, std::int32_t cost, std::int32_t after) {
-  const std::int32_t height = (before > after ? before : after) - cost;
-  const std::int32_t rise = 8 * (before - after);
-  const auto rounding =
-      static_cast<Real>(rise < 0 ? -1 : 1) / 2;  // chosen by an integer: that becomes no branch
-  return static_cast<Real>(rise) / static_cast<Real>(height > 0 ? height : 1) + rounding;
-}
+struct Baseline {};
 
 template <typename Real>
-void write_subpixel(const RowWinners& winners, const MatcherOptions& options, std::int16_t* __restrict out) {
-  const int first = winners.first;
-  const std::uint16_t* __restrict index = winners.index.data();
-  const std::uint32_t* __restrict cost = winners.cost.data();
-  const std::uint32_t* __restrict before = winners.before.data();
-  const std::uint32_t* __restrict after = winners.after.data();
-  for (int x = first; x < winners.end; ++x) {
-    const int k = index[x];
-    const int last = options.disparities - 1 < x - first ? options.disparities - 1 : x - first;
-    const auto offset = static_cast<std::int32_t>(vertex_offset<Real>(static_cast<std::int32_t>(before[x]),
-                                                                      static_cast<std::int32_t>(cost[x]),
-                                                                      static_cast<std::int32_t>(after[x])));
-    const bool inside = (k > 0) & (k < last);
-    out[x] = static_cast<std::int16_t>(kSubpixelUnits * (options.min_disparity + k) + (inside ? offset : 0));
-  }
+void write_subpixel(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) {
+  const std::size_t first = at(winners.first);
+  interpolate<Real, Baseline>(winners.index.data() + first, winners.cost.data() + first,
+                              winners.before.data() + first, winners.after.data() + first,
+                              winners.end - winners.first, options.min_disparity, options.disparities,
+                              out + first);
 }
 
 }  // namespace
@@ -73,14 +56,18 @@ void LeftRightCheck::reject(const RowWinners& winners, const MatcherOptions& opt
   std::fill(claims_.begin(), claims_.end(), std::numeric_limits<std::uint64_t>::max());
   const std::uint16_t* index = winners.index.data();
   const std::uint32_t* cost = winners.cost.data();
-  for (int x = winners.first; x < winners.end; ++x) {
+  std::uint64_t* claims = claims_.data();
+  const int min_disparity = options.min_disparity;
+  const int max_diff = options.left_right_max_diff;
+  const int end = winners.end;
+  for (int x = winners.first; x < end; ++x) {
     const std::uint64_t claim = std::uint64_t{cost[x]} << 16 | index[x];
-    std::uint64_t& standing = claims_[at(x - options.min_disparity - index[x])];
+    std::uint64_t& standing = claims[x - min_disparity - index[x]];
     standing = claim < standing ? claim : standing;
   }
-  for (int x = winners.first; x < winners.end; ++x) {
-    const int standing = static_cast<int>(claims_[at(x - options.min_disparity - index[x])] & 0xFFFF);
-    out[x] = std::abs(standing - index[x]) > options.left_right_max_diff ? kInvalidDisparity : out[x];
+  for (int x = winners.first; x < end; ++x) {
+    const int standing = static_cast<int>(claims[x - min_disparity - index[x]] & 0xFFFF);
+    out[x] = std::abs(standing - index[x]) > max_diff ? kInvalidDisparity : out[x];
   }
 }
 

@@ -47,6 +47,10 @@ class RowSearch {
   /// subpixel, `rival` only with uniqueness_ratio.
   virtual void add_row(const std::uint8_t* left, const std::uint8_t* right, RowWinners* winners) noexcept = 0;
 
+  /// Writes the disparities of what add_row() found, from winners.first on: write_disparities() of
+  /// row_filters.h, unless the search has a faster way to the same result.
+  virtual void write(const RowWinners& winners, std::int16_t* out) const noexcept = 0;
+
   virtual std::size_t scratch_bytes() const noexcept = 0;
 };
 

@@ -2,6 +2,7 @@
 // used.
 #include "core/match/isa.h"
 #include "core/match/kernels/kernel.h"
+#include "core/match/row_filters.h"
 #include "core/match/row_search.h"
 
 namespace stereod {
@@ -60,7 +61,8 @@ std::size_t size(int value) { return static_cast<std::size_t>(value); }
 class SimdSearch final : public RowSearch {
  public:
   SimdSearch(const MatcherOptions& options, int width)
-      : kernel_(kernel_for(resolve_isa(options.isa))),
+      : options_(options),
+        kernel_(kernel_for(resolve_isa(options.isa))),
         shape_(shape_for(options, width, kernel_)),
         right_row_(size(shape_.right_row_bytes())),
         differences_(size(shape_.window) * difference_row_bytes()),
@@ -86,6 +88,14 @@ class SimdSearch final : public RowSearch {
                         winners->after.data() + at, winners->rival.data() + at});
   }
 
+  void write(const RowWinners& winners, std::int16_t* out) const noexcept override {
+    if (!options_.subpixel) return write_disparities(winners, options_, out);
+    const auto at = size(winners.first);
+    kernel_.interpolate(winners.index.data() + at, winners.cost.data() + at, winners.before.data() + at,
+                        winners.after.data() + at, winners.end - winners.first, options_.min_disparity,
+                        options_.disparities, out + at);
+  }
+
   std::size_t scratch_bytes() const noexcept override {
     return right_row_.size() + differences_.size() + 2 * (column_sums_.size() + block_sums_.size());
   }
@@ -96,6 +106,7 @@ class SimdSearch final : public RowSearch {
 
   std::size_t difference_row_bytes() const { return static_cast<std::size_t>(shape_.difference_row_bytes()); }
 
+  MatcherOptions options_;
   const Kernel& kernel_;
   Shape shape_;
   AlignedBuffer<std::uint8_t> right_row_;    // as the kernel wants it

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/match/row_filters.h"
 #include "core/match/row_search.h"
 
 namespace stereod {
@@ -32,6 +33,10 @@ class SlidingSearch final : public RowSearch {
     }
     oldest_ = (oldest_ + 1) % options_.window;
     if (winners != nullptr) search(*winners);
+  }
+
+  void write(const RowWinners& winners, std::int16_t* out) const noexcept override {
+    write_disparities(winners, options_, out);
   }
 
   std::size_t scratch_bytes() const noexcept override {

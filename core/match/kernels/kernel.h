@@ -80,6 +80,12 @@ struct Kernel {
 
   /// The same, and finds the winner of every column that has an answer.
   void (*search_row)(const Shape&, const AddedRow&, const Scratch&, const Winners&);
+
+  /// interpolate<float>() of core/match/interpolation.h; sums of absolute differences are small enough for
+  /// it.
+  void (*interpolate)(const std::uint16_t* index, const std::uint32_t* cost, const std::uint32_t* before,
+                      const std::uint32_t* after, int count, int min_disparity, int disparities,
+                      std::int16_t* out);
 };
 
 extern const Kernel kScalarKernel;

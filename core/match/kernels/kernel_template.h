@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/match/interpolation.h"
 #include "core/match/kernels/kernel.h"
 
 namespace stereod::kernels {
@@ -28,18 +29,15 @@ class BlockKernel {
 
   static void prepare_right_row(const Shape& shape, const std::uint8_t* right, std::uint8_t* out) {
     const int length = shape.width + shape.padded_disparities();
-    if (shape.arithmetic == Arithmetic::kWide) {
-      for (int p = 0; p < shape.width; ++p) out[p] = right[shape.width - 1 - p];
-      for (int p = shape.width; p < length; ++p) out[p] = 0;
-      return;
-    }
-    // Backwards into the upper half of the memory first: what is read there is never written before it was
-    // read.
-    const int half = shape.chunk / 2;
-    std::uint8_t* backwards = out + length;
-    for (int p = 0; p < shape.width; ++p) backwards[p] = right[shape.width - 1 - p];
-    for (int p = shape.width; p < length; ++p) backwards[p] = 0;
-    interleave(backwards, half, length, out);
+    const bool interleaved = shape.arithmetic != Arithmetic::kWide;
+    // Backwards first, into the upper half of the memory if more is to come: interleaving from there to the
+    // front never writes what is still to be read.
+    std::uint8_t* backwards = interleaved ? out + length : out;
+    int p = 0;
+    for (; p + 16 <= shape.width; p += 16) V::reverse16(right + shape.width - 16 - p, backwards + p);
+    for (; p < shape.width; ++p) backwards[p] = right[shape.width - 1 - p];
+    for (; p < length; ++p) backwards[p] = 0;
+    if (interleaved) interleave(backwards, shape.chunk / 2, length, out);
   }
 
   static void add_row(const Shape& shape, const AddedRow& row, const Scratch& scratch) {
@@ -73,16 +71,8 @@ class BlockKernel {
   // out[2p] = in[p], out[2p + 1] = in[p + half] for p < length, 0 where that lies beyond; in may be out +
   // length.
   static void interleave(const std::uint8_t* in, int half, int length, std::uint8_t* out) {
-    constexpr int kStep = 32;
     int p = 0;
-    for (; p + kStep <= length - half; p += kStep) {
-      std::uint8_t step[2 * kStep];
-      for (int i = 0; i < kStep; ++i) {
-        step[2 * i] = in[p + i];
-        step[2 * i + 1] = in[p + half + i];
-      }
-      for (int i = 0; i < 2 * kStep; ++i) out[2 * p + i] = step[i];
-    }
+    for (; p + 16 <= length - half; p += 16) V::interleave16(in + p, in + half + p, out + 2 * p);
     for (; p < length; ++p) {
       const std::uint8_t lower = in[p];
       const std::uint8_t upper = p + half < length ? in[p + half] : std::uint8_t{0};
@@ -417,7 +407,7 @@ class BlockKernel {
 template <typename V>
 constexpr Kernel make_kernel() {
   return {BlockKernel<V>::kGranularity, BlockKernel<V>::prepare_right_row, BlockKernel<V>::add_row,
-          BlockKernel<V>::search_row};
+          BlockKernel<V>::search_row, interpolate<float, V>};
 }
 
 }  // namespace stereod::kernels

@@ -5,9 +5,11 @@
 
 #include <cstdint>
 
+#include "core/match/kernels/bytes_x86.h"
+
 namespace stereod::kernels {
 
-struct VectorAvx2 {
+struct VectorAvx2 : BytesX86<2> {
   static constexpr int kBytes = 32;
   using Reg = __m256i;
 

@@ -27,6 +27,22 @@ struct VectorScalar {
   static Reg broadcast8(std::uint8_t value) { return reinterpret_cast<Reg>(Bytes{} + value); }
   static Reg broadcast16(std::uint16_t value) { return Reg{} + value; }
 
+  /// 16 bytes in reverse order. Here and below the 16 or 32 bytes read may overlap those written.
+  static void reverse16(const std::uint8_t* in, std::uint8_t* out) {
+    std::uint8_t bytes[16];
+    for (int i = 0; i < 16; ++i) bytes[i] = in[15 - i];
+    std::memcpy(out, bytes, sizeof(bytes));
+  }
+  /// 16 bytes of a and of b by turns.
+  static void interleave16(const std::uint8_t* a, const std::uint8_t* b, std::uint8_t* out) {
+    std::uint8_t bytes[32];
+    for (int i = 0; i < 16; ++i) {
+      bytes[2 * i] = a[i];
+      bytes[2 * i + 1] = b[i];
+    }
+    std::memcpy(out, bytes, sizeof(bytes));
+  }
+
   /// |a − b| of unsigned bytes.
   static Reg abs_diff_u8(Reg a, Reg b) {
     const auto x = reinterpret_cast<Bytes>(a);

@@ -5,11 +5,13 @@
 
 #include <cstdint>
 
+#include "core/match/kernels/bytes_x86.h"
+
 namespace stereod::kernels {
 
 /// kSse41: pminuw and phminposuw are there; else they are built from older instructions.
 template <bool kSse41>
-struct VectorSse {
+struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
   static constexpr int kBytes = 16;
   using Reg = __m128i;
 

@@ -1,0 +1,29 @@
+// What both x86 vector layers do with 16 bytes (SSSE3). What each operation means stands in vector_scalar.h.
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+namespace stereod::kernels {
+
+/// kIsa only makes the functions of each kernel its own: they are compiled with different instructions.
+template <int kIsa>
+struct BytesX86 {
+  static void reverse16(const std::uint8_t* in, std::uint8_t* out) {
+    const __m128i order = _mm_setr_epi8(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
+    store(out, _mm_shuffle_epi8(load(in), order));
+  }
+  static void interleave16(const std::uint8_t* a, const std::uint8_t* b, std::uint8_t* out) {
+    const __m128i x = load(a);
+    const __m128i y = load(b);
+    store(out, _mm_unpacklo_epi8(x, y));
+    store(out + 16, _mm_unpackhi_epi8(x, y));
+  }
+
+ private:
+  static __m128i load(const std::uint8_t* p) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }
+  static void store(std::uint8_t* p, __m128i a) { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a); }
+};
+
+}  // namespace stereod::kernels
