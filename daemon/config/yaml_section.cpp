@@ -57,8 +57,8 @@ YAML::Node load_yaml_map(const std::filesystem::path& file) {
   }
 }
 
-YamlSection::YamlSection(std::filesystem::path file, YAML::Node map, std::string path)
-    : file_(std::move(file)), map_(std::move(map)), path_(std::move(path)) {
+YamlSection::YamlSection(std::filesystem::path file, const YAML::Node& map, std::string path)
+    : file_(std::move(file)), map_(map), path_(std::move(path)) {
   std::vector<std::string> seen;
   for (const auto& entry : map_) {
     if (!entry.first.IsScalar()) {

@@ -24,7 +24,7 @@ YAML::Node load_yaml_map(const std::filesystem::path& file);
 class YamlSection {
  public:
   /// `path` is the section's own name with the names above it, "" for the whole file.
-  YamlSection(std::filesystem::path file, YAML::Node map, std::string path = "");
+  YamlSection(std::filesystem::path file, const YAML::Node& map, std::string path = "");
 
   bool has(const std::string& key) const;
 

@@ -140,6 +140,7 @@ void FramePublisher::run() noexcept {
 void FramePublisher::send_block(const OutputFrame& frame, int block) noexcept {
   const RowRange rows = block_rows(block);
   const int width = size_.width;
+  const std::ptrdiff_t row_bytes = std::ptrdiff_t{width} * format_.bytes_per_value();
   rows_message_.utime = frame.facts.utime;
   rows_message_.frame = frame.facts.frame;
   rows_message_.first_row = rows.first;
@@ -153,15 +154,14 @@ void FramePublisher::send_block(const OutputFrame& frame, int block) noexcept {
     for (int x = 0; x < width; ++x) valid += in[x] != kInvalidDisparity ? 1 : 0;
     if (format_.bytes_per_value() == 1) {  // −1 becomes 255
       for (int x = 0; x < width; ++x) out[x] = static_cast<std::uint8_t>(in[x]);
-      out += width;
     } else {  // −1 becomes 65535
       for (int x = 0; x < width; ++x) {
         const auto value = static_cast<std::uint16_t>(in[x]);
         out[2 * x] = static_cast<std::uint8_t>(value);
         out[2 * x + 1] = static_cast<std::uint8_t>(value >> 8);
       }
-      out += 2 * width;
     }
+    out += row_bytes;
   }
   valid_pixels_ += valid;
   keep_pace(static_cast<std::size_t>(rows_message_.size));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace stereod {
@@ -21,7 +22,7 @@ class RecentValues {
     const std::size_t held = std::min(count_, kCapacity);
     if (held == 0) return 0;
     std::array<double, kCapacity> sorted = values_;
-    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(held - 1) + 0.5);
+    const std::ptrdiff_t place = std::lround(share * static_cast<double>(held - 1));
     std::nth_element(sorted.begin(), sorted.begin() + place,
                      sorted.begin() + static_cast<std::ptrdiff_t>(held));
     return sorted[static_cast<std::size_t>(place)];
