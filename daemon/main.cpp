@@ -126,4 +126,11 @@ int main_with(int argc, char** argv) {
 }  // namespace
 }  // namespace stereod
 
-int main(int argc, char** argv) { return stereod::main_with(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return stereod::main_with(argc, argv);
+  } catch (...) {
+    std::fputs("stereod: stopped by an unexpected error\n", stderr);
+    return stereod::kExitRetry;
+  }
+}

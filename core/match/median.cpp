@@ -78,7 +78,7 @@ void median_block(const std::int16_t* const* rows, int x, std::int16_t* out) {
   }
   Values result = values[0];
 #pragma GCC unroll 25
-  for (std::int16_t place = 1; place <= (kN - 1) / 2; ++place) {
+  for (int place = 1; place <= (kN - 1) / 2; ++place) {
     result = valid_count > Values{} + static_cast<std::int16_t>(2 * place) ? values[place] : result;
   }
   result = load(rows[kRadius] + x) != invalid ? result : invalid;

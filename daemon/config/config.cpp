@@ -109,7 +109,7 @@ void read_lcm(YamlSection section, LcmConfig& lcm) {
 
 std::string read_log_level(YamlSection section, const std::string& otherwise) {
   constexpr std::array<std::string_view, 4> kLevels{"debug", "info", "warning", "error"};
-  const std::string level =
+  std::string level =
       section.choice<std::string>("level", otherwise, "debug, info, warning and error",
                                   [&](std::string_view name) -> std::optional<std::string> {
                                     if (std::find(kLevels.begin(), kLevels.end(), name) == kLevels.end())

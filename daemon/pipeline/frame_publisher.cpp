@@ -155,7 +155,7 @@ void FramePublisher::send_block(const OutputFrame& frame, int block) noexcept {
     if (format_.bytes_per_value() == 1) {  // −1 becomes 255
       for (int x = 0; x < width; ++x) out[x] = static_cast<std::uint8_t>(in[x]);
     } else {  // −1 becomes 65535
-      for (int x = 0; x < width; ++x) {
+      for (std::ptrdiff_t x = 0; x < width; ++x) {
         const auto value = static_cast<std::uint16_t>(in[x]);
         out[2 * x] = static_cast<std::uint8_t>(value);
         out[2 * x + 1] = static_cast<std::uint8_t>(value >> 8);
