@@ -43,6 +43,7 @@ struct MatcherOptions {
   Implementation implementation = Implementation::kSimd;
   Isa isa = Isa::kAuto;
 
+  friend bool operator==(const MatcherOptions&, const MatcherOptions&) = default;
   int units_per_pixel() const { return subpixel ? kSubpixelUnits : 1; }
 };
 

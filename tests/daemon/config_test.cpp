@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <regex>
 #include <string>
 
 #include "daemon/config/yaml_section.h"
@@ -177,6 +178,39 @@ TEST_F(ConfigFile, MissingFileAndFolderAreToldApart) {
             "/nowhere/stereod.yaml: there is no such file");
   EXPECT_EQ(file_error_of([&] { read_config(directory_.path()); }),
             directory_.path().string() + ": this is a folder, not a file");
+}
+
+// The values written in the comments of etc/stereod.yaml are the defaults: uncommented, they change nothing.
+TEST_F(ConfigFile, TheShippedFileSaysTheDefaults) {
+  std::ifstream in(std::string(STEREOD_SOURCE_DIR) + "/etc/stereod.yaml");
+  std::string uncommented;
+  int matcher_keys = 0;
+  for (std::string line; std::getline(in, line);) {
+    static const std::regex kCommentedKey("  # ([a-z_]+: [a-z0-9-]+)");
+    std::smatch match;
+    if (std::regex_match(line, match, kCommentedKey)) {
+      line = "  " + match[1].str();
+      ++matcher_keys;
+    }
+    uncommented += line + "\n";
+  }
+  EXPECT_EQ(matcher_keys, 13);
+  const Config defaults;
+  const Config shipped = read(uncommented);
+  EXPECT_EQ(shipped.cameras.fps, defaults.cameras.fps);
+  EXPECT_EQ(shipped.cameras.width, defaults.cameras.width);
+  EXPECT_EQ(shipped.cameras.height, defaults.cameras.height);
+  EXPECT_EQ(shipped.matcher, defaults.matcher);
+  EXPECT_EQ(shipped.lcm.url, defaults.lcm.url);
+  EXPECT_EQ(shipped.lcm.prefix, defaults.lcm.prefix);
+  EXPECT_EQ(shipped.lcm.rows_per_message, defaults.lcm.rows_per_message);
+  EXPECT_EQ(shipped.lcm.spread, defaults.lcm.spread);
+  EXPECT_EQ(shipped.workers, defaults.workers);
+  EXPECT_EQ(shipped.log_level, defaults.log_level);
+}
+
+TEST_F(ConfigFile, TheDemoFileIsFine) {
+  EXPECT_NO_THROW(read_config(std::string(STEREOD_SOURCE_DIR) + "/etc/demo.yaml"));
 }
 
 TEST(EditDistance, CountsSingleChanges) {
