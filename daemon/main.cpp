@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <utility>
 
 #include "daemon/config/config.h"
 #include "daemon/config/file_error.h"
@@ -29,7 +30,10 @@ sigset_t blocked_stop_signals() {
   sigemptyset(&signals);
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  // Whoever read the log may go away; that is no reason to stop.
+  ::signal(SIGPIPE, SIG_IGN);
   return signals;
 }
 
@@ -59,29 +63,34 @@ void serve(Pipeline& pipeline, MessageBus& bus, const sigset_t& signals) {
       spdlog::info("the recording has played to its end; stopping");
       return;
     }
-    if (const int signal = wait_for_signal(signals, std::min(next_report, now + kLook))) {
+    const int signal = wait_for_signal(signals, std::min(next_report, now + kLook));
+    if (signal == SIGHUP) {
+      spdlog::warn("SIGHUP came, but the configuration is only read at the start; restart to read it again");
+    } else if (signal != 0) {
       spdlog::info("{} came; stopping", signal == SIGINT ? "SIGINT" : "SIGTERM");
       return;
     }
   }
 }
 
+// Finds everything that can never work before it touches the network, which may only be late.
+Rig open_checked_rig(const Config& config) {
+  url_to_publish(config.lcm.url);
+  Rig rig = open_rig(config);
+  check_pipeline(config, rig.left->frame_size());
+  return rig;
+}
+
 void run(const Config& config) {
   const sigset_t signals = blocked_stop_signals();
+  Rig rig = open_checked_rig(config);
+  const Size size = rig.left->frame_size();
   LcmBus bus(config.lcm.url);
-  Pipeline pipeline(config, open_rig(config), bus);
-  const Size size = pipeline.rig().left->frame_size();
+  Pipeline pipeline(config, std::move(rig), bus);
   spdlog::info("stereod {}: {} at {}×{}, matcher {}, channels {}_*", kVersion, name_of(config.cameras.source),
                size.width, size.height, pipeline.matcher_description(), config.lcm.prefix);
   serve(pipeline, bus, signals);
   pipeline.stop();
-}
-
-// Finds what only shows when everything is put together, without sending anything.
-void check(const Config& config) {
-  checked_lcm_url(config.lcm.url);
-  LcmBus nowhere("memq://");
-  const Pipeline pipeline(config, open_rig(config), nowhere);
 }
 
 int complain(const std::string& sentence, int status) {
@@ -106,14 +115,15 @@ int main_with(int argc, char** argv) {
     const Config config = read_config(config_file);
     set_up_log(config.log_level);
     if (check_only) {
-      check(config);
+      open_checked_rig(config);
       std::printf("%s: nothing wrong with it\n", config_file.c_str());
     } else {
       run(config);
     }
     return 0;
   } catch (const BusError& error) {
-    return complain(error.what(), error.permanent() ? kExitConfig : kExitRetry);
+    if (!error.permanent()) return complain(error.what(), kExitRetry);
+    return complain(config_file + ": lcm.url: " + error.what(), kExitConfig);
   } catch (const FileError& error) {
     return complain(error.what(), kExitConfig);
   } catch (const std::invalid_argument& error) {

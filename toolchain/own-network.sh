@@ -14,7 +14,7 @@ find_unshare() {
   local flags
   for flags in -rn -n; do
     if unshare "$flags" sh -c "$set_up" >/dev/null 2>&1; then
-      echo "$flags"
+      printf '%s\n' "$flags"  # echo would take -n for its own
       return 0
     fi
   done

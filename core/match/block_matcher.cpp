@@ -150,7 +150,7 @@ std::size_t BlockMatcher::scratch_bytes() const noexcept {
   return left_input_.bytes() + right_input_.bytes() + left_prefiltered_.bytes() + right_prefiltered_.bytes() +
          raw_.bytes() + median_.bytes() + (search_ ? search_->scratch_bytes() : 0) +
          (left_right_check_ ? left_right_check_->scratch_bytes() : 0) +
-         (texture_check_ ? texture_check_->scratch_bytes() : 0) + winners_.index.size() * 18;
+         (texture_check_ ? texture_check_->scratch_bytes() : 0) + winners_.bytes();
 }
 
 std::unique_ptr<BandMatcher> make_band_matcher(const MatcherOptions& options, Size image) {

@@ -22,6 +22,8 @@ struct RowWinners {
         after(static_cast<std::size_t>(width)),
         rival(static_cast<std::size_t>(width)) {}
 
+  std::size_t bytes() const { return index.size() * (sizeof(index[0]) + 4 * sizeof(cost[0])); }
+
   static constexpr std::uint32_t kNoRival = std::numeric_limits<std::uint32_t>::max();
 
   int first = 0;

@@ -36,8 +36,8 @@ void read_replay(YamlSection section, CamerasConfig& cameras) {
 }
 
 void read_synthetic(YamlSection section, CamerasConfig& cameras) {
-  cameras.width = section.integer("width", cameras.width, 64, 4096);
-  cameras.height = section.integer("height", cameras.height, 48, 4096);
+  cameras.width = section.integer("width", cameras.width, 64, 1920);
+  cameras.height = section.integer("height", cameras.height, 48, 1200);
   cameras.skew_ms = section.number("skew_ms", cameras.skew_ms, -100, 100);
   section.finish();
 }

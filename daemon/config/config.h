@@ -17,7 +17,7 @@ enum class SourceKind {
 
 struct CamerasConfig {
   SourceKind source = SourceKind::kSynthetic;
-  double fps = 30;         ///< 0…240; 0 plays as fast as frames are matched
+  double fps = 30;         ///< 0…240; 0: the next frame once the last one is matched and sent
   double max_skew_ms = 0;  ///< tolerance of pairing; 0 stands for half a frame
   // source: replay
   std::filesystem::path replay_left, replay_right;  ///< one pair of pictures, or

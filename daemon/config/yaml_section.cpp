@@ -40,12 +40,16 @@ YAML::Node load_yaml_map(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, error)) throw FileError(file.string() + ": there is no such file");
   if (std::filesystem::is_directory(file, error))
     throw FileError(file.string() + ": this is a folder, not a file");
+  constexpr std::size_t kLargestFile = 1'000'000;  // bytes; a longer one is no configuration
   std::ifstream in(file);
-  std::stringstream text;
-  if (in) text << in.rdbuf();
-  if (!in) throw FileError(file.string() + ": cannot be read; check its permissions");
+  std::string text(kLargestFile + 1, '\0');
+  if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!in && !in.eof()) throw FileError(file.string() + ": cannot be read; check its permissions");
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() > kLargestFile)
+    throw FileError(file.string() + ": is longer than a megabyte; this is no configuration");
   try {
-    YAML::Node root = YAML::Load(text.str());
+    YAML::Node root = YAML::Load(text);
     if (!root.IsMap()) {
       throw FileError(file.string() + ":1: expected a map of keys and values, found " +
                       kind_of(root).substr(0, 40));
@@ -57,8 +61,8 @@ YAML::Node load_yaml_map(const std::filesystem::path& file) {
   }
 }
 
-YamlSection::YamlSection(std::filesystem::path file, const YAML::Node& map, std::string path)
-    : file_(std::move(file)), map_(map), path_(std::move(path)) {
+YamlSection::YamlSection(std::filesystem::path file, const YAML::Node& map, std::string path, int line)
+    : file_(std::move(file)), map_(map), line_(line), path_(std::move(path)) {
   std::vector<std::string> seen;
   for (const auto& entry : map_) {
     if (!entry.first.IsScalar()) {
@@ -94,19 +98,22 @@ bool YamlSection::has(const std::string& key) const {
 
 void YamlSection::require(const std::string& key) {
   if (!has(key)) {
-    const std::string where = path_.empty() ? "" : ":" + std::to_string(map_.Mark().line + 1);
+    const std::string where = path_.empty() || line_ == 0 ? "" : ":" + std::to_string(line_);
     throw FileError(file_.string() + where + ": " + full_name(key) + ": is missing");
   }
 }
 
-void YamlSection::fail(const std::string& key, const std::string& complaint) const {
+int YamlSection::line_of(const std::string& key) const {
   for (const auto& entry : map_) {
-    if (entry.first.Scalar() == key) {
-      throw FileError(file_.string() + ":" + std::to_string(entry.first.Mark().line + 1) + ": " +
-                      full_name(key) + ": " + complaint);
-    }
+    if (entry.first.Scalar() == key) return entry.first.Mark().line + 1;
   }
-  throw FileError(file_.string() + ": " + full_name(key) + ": " + complaint);
+  return 0;
+}
+
+void YamlSection::fail(const std::string& key, const std::string& complaint) const {
+  const int line = line_of(key);
+  throw FileError(file_.string() + (line > 0 ? ":" + std::to_string(line) : "") + ": " + full_name(key) +
+                  ": " + complaint);
 }
 
 std::optional<std::string> YamlSection::scalar(const std::string& key) {
@@ -190,7 +197,8 @@ std::vector<double> YamlSection::required_numbers(const std::string& key, std::s
 
 YamlSection YamlSection::section(const std::string& key) {
   const YAML::Node node = find(key);
-  if (!node.IsDefined() || node.IsNull()) return {file_, YAML::Node(YAML::NodeType::Map), full_name(key)};
+  if (!node.IsDefined()) return {file_, YAML::Node(YAML::NodeType::Map), full_name(key), 0};
+  if (node.IsNull()) return {file_, YAML::Node(YAML::NodeType::Map), full_name(key), line_of(key)};
   if (!node.IsMap()) fail(key, "found " + kind_of(node) + ", allowed is a map of keys and values");
   return {file_, node, full_name(key)};
 }

@@ -24,7 +24,8 @@ YAML::Node load_yaml_map(const std::filesystem::path& file);
 class YamlSection {
  public:
   /// `path` is the section's own name with the names above it, "" for the whole file.
-  YamlSection(std::filesystem::path file, const YAML::Node& map, std::string path = "");
+  YamlSection(std::filesystem::path file, const YAML::Node& map, std::string path = "")
+      : YamlSection(std::move(file), map, std::move(path), map.Mark().line + 1) {}
 
   bool has(const std::string& key) const;
 
@@ -62,13 +63,16 @@ class YamlSection {
   [[noreturn]] void fail(const std::string& key, const std::string& complaint) const;
 
  private:
+  YamlSection(std::filesystem::path file, const YAML::Node& map, std::string path, int line);
   std::optional<std::string> scalar(const std::string& key);
+  int line_of(const std::string& key) const;  // 0 if it is not there
   YAML::Node find(const std::string& key);
   void require(const std::string& key);
   std::string full_name(const std::string& key) const;
 
   std::filesystem::path file_;
   YAML::Node map_;
+  int line_ = 0;  // where the map stands, from 1; 0 if it stands nowhere
   std::string path_;
   std::vector<std::string> asked_for_;
 };

@@ -12,9 +12,11 @@ namespace stereod {
 
 namespace {
 
-std::uint16_t kitti_value(std::int16_t disparity, int units_per_pixel) {
+constexpr int kLargestKittiValue = 65535;
+
+int kitti_value(std::int16_t disparity, int units_per_pixel) {
   if (disparity < 0) return 0;
-  return static_cast<std::uint16_t>(std::clamp(disparity * 256 / units_per_pixel, 1, 65535));
+  return std::max(disparity * 256 / units_per_pixel, 1);
 }
 
 }  // namespace
@@ -39,7 +41,12 @@ void write_disparity_png(const std::filesystem::path& path, DisparityView dispar
   Image<std::uint16_t> values(disparity.size());
   for (int y = 0; y < disparity.height(); ++y) {
     for (int x = 0; x < disparity.width(); ++x) {
-      values.at(x, y) = kitti_value(disparity.at(x, y), units_per_pixel);
+      const int value = kitti_value(disparity.at(x, y), units_per_pixel);
+      if (value > kLargestKittiValue) {
+        throw FileError(path.string() + ": a disparity of " + std::to_string(value / 256) +
+                        " px was found, and a KITTI PNG holds less than 256; write a .pfm file instead");
+      }
+      values.at(x, y) = static_cast<std::uint16_t>(value);
     }
   }
   write_png(path, values.view());

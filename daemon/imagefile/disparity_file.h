@@ -15,7 +15,7 @@ Image<float> disparity_in_pixels(DisparityView disparity, int units_per_pixel);
 void write_disparity_pfm(const std::filesystem::path& path, DisparityView disparity, int units_per_pixel);
 
 /// The format of KITTI: a 16-bit PNG of disparity × 256, 0 where unknown. A disparity of 0 px, which the
-/// format cannot tell from unknown, becomes 1 (1/256 px); more than 255.99 px becomes 65535. Throws
+/// format cannot tell from unknown, becomes 1 (1/256 px); 256 px and more do not fit and are refused. Throws
 /// FileError.
 void write_disparity_png(const std::filesystem::path& path, DisparityView disparity, int units_per_pixel);
 

@@ -6,11 +6,11 @@
 #include <stdexcept>
 
 #include "daemon/pipeline/clocks.h"
+#include "daemon/publish/wire_limits.h"
 
 namespace stereod {
 namespace {
 
-constexpr int kLargestDatagram = 65'499;      // LCM sends more in fragments, of which one lost loses all
 constexpr int kHeaderAllowance = 256;         // channel name and the message's own fields
 constexpr std::int64_t kBurstBytes = 96'000;  // fits a default socket buffer (212,992 B with its overhead)
 
@@ -18,15 +18,20 @@ int block_bytes(const WireFormat& format, Size size) {
   return format.rows_per_message * size.width * format.bytes_per_value();
 }
 
-std::string size_problem(const WireFormat& format, Size size) {
+}  // namespace
+
+std::optional<std::string> wire_problem(const WireFormat& format, Size size) {
+  if (size.width > kLargestImageSide || size.height > kLargestImageSide) {
+    return "the cameras give images of " + std::to_string(size.width) + "×" + std::to_string(size.height) +
+           "; what can be published is " + std::to_string(kLargestImageSide) + " a side";
+  }
+  constexpr int kRoom = kLargestDatagram - kHeaderAllowance;
+  if (block_bytes(format, size) <= kRoom) return std::nullopt;
   const int row_bytes = size.width * format.bytes_per_value();
   return "lcm.rows_per_message: found " + std::to_string(format.rows_per_message) + ", but rows of " +
-         std::to_string(row_bytes) + " bytes are sent and a message holds " +
-         std::to_string(kLargestDatagram - kHeaderAllowance) + ", so allowed are 1 to " +
-         std::to_string((kLargestDatagram - kHeaderAllowance) / row_bytes);
+         std::to_string(row_bytes) + " bytes are sent and a message holds " + std::to_string(kRoom) +
+         ", so allowed are 1 to " + std::to_string(kRoom / row_bytes);
 }
-
-}  // namespace
 
 int WireFormat::bytes_per_value() const {
   return (min_disparity + disparities - 1) * units_per_pixel < 0xFF ? 1 : 2;
@@ -42,9 +47,7 @@ FramePublisher::FramePublisher(MessageBus& bus, const WireFormat& format, Size s
       frames_{OutputFrame(size), OutputFrame(size)},
       events_(static_cast<std::size_t>(kFrames) * (static_cast<std::size_t>(blocks_) + 1)),
       encoder_(kLargestDatagram) {
-  if (block_bytes(format, size) > kLargestDatagram - kHeaderAllowance) {
-    throw std::invalid_argument(size_problem(format, size));
-  }
+  if (const auto problem = wire_problem(format, size)) throw std::invalid_argument(*problem);
   for (OutputFrame& frame : frames_) free_.push_back(&frame);
   rows_message_.data.reserve(static_cast<std::size_t>(block_bytes(format, size)));
   rows_message_.width = size.width;

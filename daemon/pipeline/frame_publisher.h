@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -31,6 +32,9 @@ struct WireFormat {
   int bytes_per_value() const;
   int invalid_value() const { return bytes_per_value() == 1 ? 0xFF : 0xFFFF; }
 };
+
+/// Why images of this size cannot be published like this, as a sentence; nothing if they can.
+std::optional<std::string> wire_problem(const WireFormat& format, Size size);
 
 /// Figures about what was published. The recent ones are since the last take_figures().
 struct PublisherFigures {

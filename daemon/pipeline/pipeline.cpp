@@ -1,6 +1,7 @@
 #include "daemon/pipeline/pipeline.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "core/match/isa.h"
@@ -8,6 +9,8 @@
 
 namespace stereod {
 namespace {
+
+constexpr double kLongestSpread = 0.1;  // s; slow cameras need no more, and a stop should not wait for it
 
 WireFormat wire_format(const Config& config) {
   WireFormat format;
@@ -17,7 +20,7 @@ WireFormat wire_format(const Config& config) {
   format.disparities = config.matcher.disparities;
   format.units_per_pixel = config.matcher.units_per_pixel();
   const double fps = config.cameras.fps > 0 ? config.cameras.fps : 30;
-  format.spread_s = config.lcm.spread / fps;
+  format.spread_s = std::min(config.lcm.spread / fps, kLongestSpread);
   return format;
 }
 
@@ -33,6 +36,11 @@ std::string describe(const Config& config) {
 SourceLayout layout_of(const LumaView& luma) { return {luma.size, luma.row_stride, luma.pixel_stride}; }
 
 }  // namespace
+
+void check_pipeline(const Config& config, Size size) {
+  if (const auto problem = wire_problem(wire_format(config), size)) throw std::invalid_argument(*problem);
+  make_band_matcher(config.matcher, size);
+}
 
 Pipeline::Pipeline(const Config& config, Rig rig, MessageBus& bus)
     : config_(config),

@@ -33,6 +33,10 @@ struct PipelineFigures {
   PublisherFigures published;
 };
 
+/// Throws what the constructor of Pipeline would for frames of this size: std::invalid_argument with a
+/// sentence.
+void check_pipeline(const Config& config, Size size);
+
 /// Runs these threads: one for each camera (CaptureThread), the matching thread, which takes pairs and is
 /// itself the first of the workers, the other workers, and the publisher. After the first frame it allocates
 /// nothing.

@@ -3,11 +3,9 @@
 #include <cerrno>
 #include <cstring>
 
-namespace stereod {
-namespace {
+#include "daemon/publish/wire_limits.h"
 
-/// LCM 1.3.1 sends more than this (channel, its zero and data) in fragments.
-constexpr std::size_t kMaxDatagram = 65499;
+namespace stereod {
 
 LcmUrl url_to_publish(const std::string& text) {
   LcmUrl url = checked_lcm_url(text);
@@ -18,8 +16,6 @@ LcmUrl url_to_publish(const std::string& text) {
   }
   return url;
 }
-
-}  // namespace
 
 LcmBus::LcmBus(const std::string& url) {
   const LcmUrl checked = url_to_publish(url);
@@ -34,7 +30,7 @@ bool LcmBus::publish(const char* channel, const void* data, std::size_t size) no
   errno = 0;
   if (lcm_publish(lcm_.get(), channel, data, static_cast<unsigned int>(size)) != 0) return false;
   // LCM 1.3.1 reports success for a fragmented message whatever became of its fragments; errno still knows.
-  const bool fragmented = is_udp_ && channel_length + 1 + size > kMaxDatagram;
+  const bool fragmented = is_udp_ && channel_length + 1 + size > kLargestDatagram;
   return !fragmented || errno == 0;
 }
 

@@ -6,6 +6,9 @@
 
 namespace stereod {
 
+/// A URL that one can publish to, checked without opening anything. Throws a permanent BusError.
+LcmUrl url_to_publish(const std::string& url);
+
 /// Publishes on LCM. It never subscribes, so LCM starts no thread and opens no port that receives.
 class LcmBus : public MessageBus {
  public:

@@ -1,11 +1,15 @@
 #include "daemon/service/log.h"
 
+#include <poll.h>
 #include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <memory>
+#include <mutex>
+#include <string>
 #include <utility>
 
 namespace stereod {
@@ -39,11 +43,37 @@ class SystemdPriority final : public spdlog::custom_flag_formatter {
   }
 };
 
+// Writes to stderr, but never waits for whoever reads it: a line that would have to wait is dropped, and the
+// number of such lines told with the next one that goes through.
+class UnblockedStderr final : public spdlog::sinks::base_sink<std::mutex> {
+ private:
+  // A pipe that is ready takes at least this much at once (POSIX, PIPE_BUF on Linux).
+  static constexpr std::size_t kLongestLine = 4096;
+
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    if (dropped_ > 0 &&
+        write_line(std::to_string(dropped_) + " lines of the log were lost: nobody read them\n")) {
+      dropped_ = 0;
+    }
+    if (!write_line({line.data(), line.size()})) ++dropped_;
+  }
+  void flush_() override {}
+
+  static bool write_line(const std::string& line) {
+    pollfd ready{STDERR_FILENO, POLLOUT, 0};
+    if (poll(&ready, 1, 0) != 1 || (ready.revents & POLLOUT) == 0) return false;
+    return write(STDERR_FILENO, line.data(), std::min(line.size(), kLongestLine)) > 0;
+  }
+
+  long dropped_ = 0;
+};
+
 }  // namespace
 
 void set_up_log(const std::string& level) {
-  auto logger =
-      std::make_shared<spdlog::logger>("stereod", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  auto logger = std::make_shared<spdlog::logger>("stereod", std::make_shared<UnblockedStderr>());
   if (isatty(STDERR_FILENO) == 1) {
     logger->set_pattern("%H:%M:%S.%e %l: %v");
   } else {
@@ -52,7 +82,6 @@ void set_up_log(const std::string& level) {
     logger->set_formatter(std::move(formatter));
   }
   logger->set_level(spdlog::level::from_str(level));
-  logger->flush_on(spdlog::level::debug);
   spdlog::set_default_logger(std::move(logger));
 }
 

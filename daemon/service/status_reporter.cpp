@@ -26,31 +26,34 @@ const char* state_name(SourceState state) {
   return "?";
 }
 
-std::string missing_cameras(const PipelineFigures& now, const PipelineFigures& before) {
-  const bool left = now.left.frames > before.left.frames;
-  const bool right = now.right.frames > before.right.frames;
-  if (left && right) return {};
-  if (left) return "no frames from the right camera";
-  if (right) return "no frames from the left camera";
+std::string missing_cameras(const Activity& activity) {
+  if (activity.left_frames && activity.right_frames) return {};
+  if (activity.left_frames) return "no frames from the right camera";
+  if (activity.right_frames) return "no frames from the left camera";
   return "no frames from either camera";
+}
+
+// A second, or two and a half frames of a slow camera.
+std::int64_t patience_for(double fps) {
+  constexpr double kSecond = 1e9;
+  return static_cast<std::int64_t>(fps > 0 ? std::max(kSecond, 2.5 * kSecond / fps) : kSecond);
 }
 
 }  // namespace
 
-ServiceState judge_state(const PipelineFigures& now, const PipelineFigures& before, bool calibrated) {
-  const std::string missing = missing_cameras(now, before);
+ServiceState judge_state(const Activity& activity, bool calibrated) {
+  const std::string missing = missing_cameras(activity);
   if (!missing.empty()) return {"waiting_for_cameras", missing};
-  if (now.published.frames == before.published.frames) {
-    if (now.pairing.pairs == before.pairing.pairs) {
+  if (!activity.published) {
+    if (!activity.pairs) {
       return {"degraded",
               "both cameras give frames, but never near enough in time to be a pair; raise "
-              "cameras.max_skew_ms or give both the same rate"};
+              "cameras.max_skew_ms or "
+              "give both the same rate"};
     }
-    return {"degraded", "pairs are made but none was published in the last second"};
+    return {"degraded", "pairs are made, but none was published lately"};
   }
-  if (now.published.messages_refused > before.published.messages_refused) {
-    return {"degraded", "the network refused messages"};
-  }
+  if (activity.refused) return {"degraded", "the network refused messages"};
   if (!calibrated)
     return {"uncalibrated", "no calibration is configured, so the images are matched unrectified"};
   return {"streaming", ""};
@@ -62,6 +65,7 @@ StatusReporter::StatusReporter(Pipeline& pipeline, MessageBus& bus)
       encoder_(kLargestStatus),
       status_channel_(pipeline.config().lcm.prefix + "_STATUS"),
       camera_info_channel_(pipeline.config().lcm.prefix + "_CAMERA_INFO"),
+      patience_ns_(patience_for(pipeline.config().cameras.fps)),
       started_ns_(monotonic_ns()),
       before_ns_(started_ns_),
       before_cpu_s_(process_cpu_seconds()) {
@@ -78,10 +82,11 @@ void StatusReporter::report() {
   const std::int64_t now_ns = monotonic_ns();
   const double seconds = std::max(1e-3, static_cast<double>(now_ns - before_ns_) * 1e-9);
   const double cpu_s = process_cpu_seconds();
+  const Activity activity = recent_activity(now, now_ns);
   const bool calibrated = pipeline_.rig().calibration.has_value();
   const ServiceState state = std::exchange(first_, false)
                                  ? ServiceState{"starting", "waiting for the first frames"}
-                                 : judge_state(now, before_, calibrated);
+                                 : judge_state(activity, calibrated);
   if (state.name != status_.state || state.reason != status_.reason) {
     spdlog::info("state: {}{}{}", state.name, state.reason.empty() ? "" : ": ", state.reason);
   }
@@ -115,6 +120,20 @@ void StatusReporter::report() {
   before_ = now;
   before_ns_ = now_ns;
   before_cpu_s_ = cpu_s;
+}
+
+Activity StatusReporter::recent_activity(const PipelineFigures& now, std::int64_t now_ns) {
+  const auto happened_lately = [&](bool happened, std::int64_t& last_ns) {
+    if (happened) last_ns = now_ns;
+    return last_ns > 0 && now_ns - last_ns < patience_ns_;
+  };
+  Activity activity;
+  activity.left_frames = happened_lately(now.left.frames > before_.left.frames, last_ns_.left);
+  activity.right_frames = happened_lately(now.right.frames > before_.right.frames, last_ns_.right);
+  activity.pairs = happened_lately(now.pairing.pairs > before_.pairing.pairs, last_ns_.pair);
+  activity.published = happened_lately(now.published.frames > before_.published.frames, last_ns_.publication);
+  activity.refused = now.published.messages_refused > before_.published.messages_refused;
+  return activity;
 }
 
 void StatusReporter::fill_camera(camera_status_t& message, const CameraFigures& now,

@@ -18,8 +18,15 @@ struct ServiceState {
   std::string reason;  ///< empty when streaming
 };
 
-/// Judges from what happened during the last period.
-ServiceState judge_state(const PipelineFigures& now, const PipelineFigures& before, bool calibrated);
+/// What has happened lately.
+struct Activity {
+  bool left_frames = false, right_frames = false;
+  bool pairs = false;
+  bool published = false;
+  bool refused = false;  ///< by the network
+};
+
+ServiceState judge_state(const Activity& activity, bool calibrated);
 
 /// Publishes status_t and camera_info_t, and logs every change of state once.
 class StatusReporter {
@@ -31,6 +38,7 @@ class StatusReporter {
 
  private:
   void publish_camera_info();
+  Activity recent_activity(const PipelineFigures& now, std::int64_t now_ns);
   void fill_camera(camera_status_t& message, const CameraFigures& now, const CameraFigures& before,
                    double seconds);
 
@@ -40,6 +48,11 @@ class StatusReporter {
   status_t status_{};
   std::string status_channel_, camera_info_channel_;
   PipelineFigures before_;
+  // When each last happened.
+  struct {
+    std::int64_t left = 0, right = 0, pair = 0, publication = 0;
+  } last_ns_;
+  const std::int64_t patience_ns_;  // how long nothing may happen before it counts as missing
   bool first_ = true;
   std::int64_t started_ns_, before_ns_;
   double before_cpu_s_;

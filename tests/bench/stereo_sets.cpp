@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "daemon/config/file_error.h"
+#include "daemon/imagefile/read_image.h"
 #include "daemon/tools/evaluation.h"
 #include "tests/bench/bench_images.h"
 #include "tests/bench/npz_file.h"
@@ -29,9 +30,11 @@ std::optional<double> number_in(const std::string& json, const std::string& key)
 }
 
 cv::Mat read_grey_mat(const fs::path& path) {
-  cv::Mat grey = cv::imread(path.string(), cv::IMREAD_GRAYSCALE);
-  if (grey.empty()) throw FileError(path.string() + ": is missing or no picture");
-  return grey;
+  // As stereo-match and the daemon read it; OpenCV's own reader makes slightly other greys of colours.
+  const GreyImage grey = read_grey(path);
+  cv::Mat copy(grey.height(), grey.width(), CV_8UC1);
+  for (int y = 0; y < grey.height(); ++y) std::copy_n(grey.row(y), grey.width(), copy.ptr(y));
+  return copy;
 }
 
 StereoSet load_set(const std::string& name, const fs::path& left, const fs::path& right, Image<float> truth,

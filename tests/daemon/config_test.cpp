@@ -118,6 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
     Config, BadConfigFile,
     testing::Values(
         BadConfig{"matcher: {}\n", "stereod.yaml: cameras: is missing"},
+        BadConfig{"cameras:\nlcm: {}\n", "stereod.yaml:1: cameras.source: is missing"},
         BadConfig{"cameras:\n  fps: 3\n", "stereod.yaml:2: cameras.source: is missing"},
         BadConfig{"cameras:\n  source: webcam\n",
                   "stereod.yaml:2: cameras.source: found 'webcam', allowed are replay and synthetic"},

@@ -1,4 +1,5 @@
 // The frame assembler and what a network may bring that is not from stereod.
+#include "daemon/publish/wire_limits.h"
 #include "daemon/tools/tap/frame_assembler.h"
 
 #include <gtest/gtest.h>
@@ -100,7 +101,7 @@ TEST(FrameAssembler, IgnoresSizesThatDoNotFit) {
   };
   for (const std::int32_t value : kHostile) {
     if (value != kWidth) with([value](auto& m) { m.width = value; });
-    if (value < 2 || value > FrameAssembler::kMaxSide) with([value](auto& m) { m.height = value; });
+    if (value < 2 || value > kLargestImageSide) with([value](auto& m) { m.height = value; });
     if (value != kRowsPerMessage) with([value](auto& m) { m.row_count = value; });
     if (value < 0 || value > kHeight - kRowsPerMessage) with([value](auto& m) { m.first_row = value; });
     if (value != rows_of(0, 0).size) with([value](auto& m) { m.size = value; });

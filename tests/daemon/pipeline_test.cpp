@@ -269,23 +269,18 @@ TEST(StatusReporter, SaysStartingFirstAndThenStreaming) {
   EXPECT_GT(messages[1].rss_mb, 1);
 }
 
-PipelineFigures figures(std::int64_t left, std::int64_t right, std::int64_t pairs, std::int64_t published) {
-  PipelineFigures result;
-  result.left.frames = left;
-  result.right.frames = right;
-  result.pairing.pairs = pairs;
-  result.published.frames = published;
-  return result;
-}
-
 TEST(JudgeState, NamesWhatIsMissing) {
-  const PipelineFigures before = figures(10, 10, 10, 10);
-  EXPECT_EQ(judge_state(figures(10, 10, 10, 10), before, true).reason, "no frames from either camera");
-  EXPECT_EQ(judge_state(figures(10, 20, 10, 10), before, true).reason, "no frames from the left camera");
-  EXPECT_EQ(judge_state(figures(20, 10, 10, 10), before, true).name, "waiting_for_cameras");
-  EXPECT_EQ(judge_state(figures(20, 20, 10, 10), before, true).name, "degraded");
-  EXPECT_EQ(judge_state(figures(20, 20, 20, 20), before, true).name, "streaming");
-  EXPECT_EQ(judge_state(figures(20, 20, 20, 20), before, false).name, "uncalibrated");
+  const auto judge = [](bool left, bool right, bool pairs, bool published, bool refused, bool calibrated) {
+    return judge_state({left, right, pairs, published, refused}, calibrated);
+  };
+  EXPECT_EQ(judge(false, false, false, false, false, true).reason, "no frames from either camera");
+  EXPECT_EQ(judge(false, true, false, false, false, true).reason, "no frames from the left camera");
+  EXPECT_EQ(judge(true, false, false, false, false, true).name, "waiting_for_cameras");
+  EXPECT_EQ(judge(true, true, false, false, false, true).name, "degraded");
+  EXPECT_EQ(judge(true, true, true, false, false, true).name, "degraded");
+  EXPECT_EQ(judge(true, true, true, true, true, true).reason, "the network refused messages");
+  EXPECT_EQ(judge(true, true, true, true, false, true).name, "streaming");
+  EXPECT_EQ(judge(true, true, true, true, false, false).name, "uncalibrated");
 }
 
 }  // namespace

@@ -170,16 +170,27 @@ TEST_F(DisparityFile, PfmHoldsPixels) {
 }
 
 TEST_F(DisparityFile, PngHoldsThe256thsOfKitti) {
+  disparity_.at(4, 0) = 4095;
   write_disparity(directory_ / "d.png", disparity_.view(), 16);
   const Image<std::uint16_t> values = read_grey16(directory_ / "d.png");
   EXPECT_EQ(values.at(0, 0), 0);
   EXPECT_EQ(values.at(1, 0), 1) << "0 would mean unknown";
   EXPECT_EQ(values.at(2, 0), 384);
   EXPECT_EQ(values.at(3, 0), 65520);
-  EXPECT_EQ(values.at(4, 0), 65535) << "clamped";
+}
+
+TEST_F(DisparityFile, PngRefusesWhatItCannotHold) {
+  disparity_.at(4, 0) = 256 * 16;
+  const auto path = directory_ / "d.png";
+  EXPECT_EQ(file_error_of([&] { write_disparity(path, disparity_.view(), 16); }),
+            path.string() +
+                ": a disparity of 256 px was found, and a KITTI PNG holds less than 256; write a .pfm "
+                "file instead");
+  EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST_F(DisparityFile, WholePixelsToo) {
+  disparity_.at(3, 0) = disparity_.at(4, 0) = 255;
   write_disparity(directory_ / "d.png", disparity_.view(), 1);
   write_disparity(directory_ / "d.pfm", disparity_.view(), 1);
   EXPECT_EQ(read_grey16(directory_ / "d.png").at(2, 0), 24 * 256);

@@ -1,6 +1,9 @@
 // The daemon as a user runs it, and a receiver in another process.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -159,6 +162,47 @@ TEST_F(StereodTest, InterruptEndsItCleanly) {
   const ProgramRun run = stereod.wait();
   EXPECT_EQ(run.status, 0);
   EXPECT_NE(run.err.find("<6>SIGINT came; stopping"), std::string::npos) << run.err;
+}
+
+// A pipe that is full and that nobody reads, and then one that nobody can read any more.
+TEST_F(StereodTest, AReaderOfTheLogThatStopsDoesNotStopIt) {
+  if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
+  const std::filesystem::path config = directory_ / "demo.yaml";
+  std::ofstream(config) << "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nlcm: {url: \""
+                        << kUrl << "\", prefix: E2E}\n";
+  int ends[2];
+  ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+  ASSERT_EQ(::fcntl(ends[1], F_SETFL, O_NONBLOCK), 0);
+  const std::string filling(4096, 'x');
+  while (::write(ends[1], filling.data(), filling.size()) > 0) {
+  }
+  ASSERT_EQ(::fcntl(ends[1], F_SETFL, 0), 0);
+  LcmReceiver receiver(kUrl);
+  int frames = 0;
+  receiver.subscribe("E2E_FRAME", [&](std::span<const std::byte>) { ++frames; });
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::dup2(ends[1], STDERR_FILENO);
+    ::execl((kBin / "stereod").c_str(), "stereod", "--config", config.c_str(), nullptr);
+    ::_exit(127);
+  }
+  const auto receive_frames = [&](int count) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    frames = 0;
+    while (frames < count && std::chrono::steady_clock::now() < deadline) {
+      receiver.receive(std::chrono::milliseconds(100));
+    }
+    return frames >= count;
+  };
+  EXPECT_TRUE(receive_frames(10)) << "with a full pipe";
+  ::close(ends[0]);
+  ::close(ends[1]);
+  ::kill(child, SIGHUP);  // a line to log
+  EXPECT_TRUE(receive_frames(10)) << "with a broken pipe";
+  ::kill(child, SIGTERM);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
 TEST_F(StereodTest, SaysItsVersion) {

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "daemon/publish/wire_limits.h"
+
 namespace stereod {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr std::int64_t kMaxBackward = 16;
 constexpr int kMessagesToFollow = 3;
 
 bool is_image_size(int width, int height) {
-  return width >= 1 && width <= FrameAssembler::kMaxSide && height >= 1 && height <= FrameAssembler::kMaxSide;
+  return width >= 1 && width <= kLargestImageSide && height >= 1 && height <= kLargestImageSide;
 }
 
 /// Fixed-point units in a pixel for a scale in pixels per unit; 0 if the wire format does not have it.

@@ -54,9 +54,6 @@ class FrameAssembler {
  public:
   using Handler = std::function<void(AssembledFrame&&)>;
 
-  static constexpr int kMaxSide =
-      4096;  ///< px; larger images are refused, so that no message can ask for gigabytes
-
   explicit FrameAssembler(Handler handler) : handler_(std::move(handler)) {}
 
   /// Any message whatever; what is not sane is counted as ignored.
