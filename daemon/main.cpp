@@ -4,16 +4,20 @@
 #include <time.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <utility>
 
+#include "core/match/isa.h"
 #include "daemon/config/config.h"
 #include "daemon/config/file_error.h"
 #include "daemon/pipeline/clocks.h"
 #include "daemon/pipeline/pipeline.h"
 #include "daemon/publish/lcm_bus.h"
+#include "daemon/publish/wire_limits.h"
 #include "daemon/service/log.h"
 #include "daemon/service/status_reporter.h"
 #include "daemon/service/version.h"
@@ -73,17 +77,33 @@ void serve(Pipeline& pipeline, MessageBus& bus, const sigset_t& signals) {
   }
 }
 
-// Finds everything that can never work before it touches the network, which may only be late.
-Rig open_checked_rig(const Config& config) {
-  url_to_publish(config.lcm.url);
+// Finds everything that can never work before it touches the network, which may only be late. Throws
+// FileError.
+Rig open_checked_rig(const Config& config, const std::filesystem::path& file) {
+  try {
+    url_to_publish(config.lcm.url);
+  } catch (const BusError& error) {
+    throw FileError(place_of(file, "lcm.url") + ": " + error.what());
+  }
+  try {
+    resolve_isa(config.matcher.isa);
+  } catch (const std::invalid_argument& error) {
+    throw FileError(place_of(file, "matcher.isa") + ": " + error.what());
+  }
   Rig rig = open_rig(config);
-  check_pipeline(config, rig.left->frame_size());
+  try {
+    check_pipeline(config, rig.left->frame_size());
+  } catch (const std::invalid_argument& error) {
+    const Size size = rig.left->frame_size();
+    const bool too_large = std::max(size.width, size.height) > kLargestImageSide;
+    throw FileError(place_of(file, too_large ? "cameras" : "lcm.rows_per_message") + ": " + error.what());
+  }
   return rig;
 }
 
-void run(const Config& config) {
+void run(const Config& config, const std::filesystem::path& file) {
   const sigset_t signals = blocked_stop_signals();
-  Rig rig = open_checked_rig(config);
+  Rig rig = open_checked_rig(config, file);
   const Size size = rig.left->frame_size();
   LcmBus bus(config.lcm.url);
   Pipeline pipeline(config, std::move(rig), bus);
@@ -115,15 +135,14 @@ int main_with(int argc, char** argv) {
     const Config config = read_config(config_file);
     set_up_log(config.log_level);
     if (check_only) {
-      open_checked_rig(config);
+      open_checked_rig(config, config_file);
       std::printf("%s: nothing wrong with it\n", config_file.c_str());
     } else {
-      run(config);
+      run(config, config_file);
     }
     return 0;
   } catch (const BusError& error) {
-    if (!error.permanent()) return complain(error.what(), kExitRetry);
-    return complain(config_file + ": lcm.url: " + error.what(), kExitConfig);
+    return complain(error.what(), error.permanent() ? kExitConfig : kExitRetry);
   } catch (const FileError& error) {
     return complain(error.what(), kExitConfig);
   } catch (const std::invalid_argument& error) {

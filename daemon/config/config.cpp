@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <thread>
 
 #include "daemon/config/yaml_section.h"
@@ -133,6 +134,23 @@ std::int64_t CamerasConfig::pairing_tolerance_ns() const {
 int Config::worker_count() const {
   if (workers > 0) return workers;
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 64u));
+}
+
+std::string place_of(const std::filesystem::path& file, const std::string& key) {
+  YAML::Node node = load_yaml_map(file);
+  int line = 0;
+  std::istringstream words(key);
+  for (std::string word; std::getline(words, word, '.') && node.IsMap();) {
+    line = 0;
+    YAML::Node below;
+    for (const auto& entry : node) {
+      if (entry.first.Scalar() != word) continue;
+      line = entry.first.Mark().line + 1;
+      below.reset(entry.second);
+    }
+    node.reset(below);
+  }
+  return file.string() + (line > 0 ? ":" + std::to_string(line) : "") + ": " + key;
 }
 
 Config read_config(const std::filesystem::path& file) {

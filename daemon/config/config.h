@@ -53,6 +53,9 @@ struct Config {
 /// Reads a configuration file, strictly. Throws FileError: "file:line: key: what was found, what is allowed".
 Config read_config(const std::filesystem::path& file);
 
+/// "file:line: key" for a complaint about a key like "matcher.isa", "file: key" if it does not stand there.
+std::string place_of(const std::filesystem::path& file, const std::string& key);
+
 std::string_view name_of(SourceKind kind);
 
 }  // namespace stereod

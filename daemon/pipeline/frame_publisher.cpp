@@ -28,9 +28,9 @@ std::optional<std::string> wire_problem(const WireFormat& format, Size size) {
   constexpr int kRoom = kLargestDatagram - kHeaderAllowance;
   if (block_bytes(format, size) <= kRoom) return std::nullopt;
   const int row_bytes = size.width * format.bytes_per_value();
-  return "lcm.rows_per_message: found " + std::to_string(format.rows_per_message) + ", but rows of " +
-         std::to_string(row_bytes) + " bytes are sent and a message holds " + std::to_string(kRoom) +
-         ", so allowed are 1 to " + std::to_string(kRoom / row_bytes);
+  return "found " + std::to_string(format.rows_per_message) + ", but rows of " + std::to_string(row_bytes) +
+         " bytes are sent and a message holds " + std::to_string(kRoom) + ", so allowed are 1 to " +
+         std::to_string(kRoom / row_bytes);
 }
 
 int WireFormat::bytes_per_value() const {

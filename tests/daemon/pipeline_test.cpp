@@ -231,7 +231,7 @@ TEST(Pipeline, ARowBlockTooLargeForAMessageIsRefused) {
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "lcm.rows_per_message: found 300, but rows of 320 bytes are sent and a message holds 65243, "
+                 "found 300, but rows of 320 bytes are sent and a message holds 65243, "
                  "so allowed "
                  "are 1 to 203");
   }

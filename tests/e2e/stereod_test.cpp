@@ -256,11 +256,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadStart{"MissingCalibration", "cameras: {source: synthetic}\ncalibration: gone.yaml\n", "gone.yaml"},
         BadStart{"ImpossibleIsa",
                  "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nmatcher: {isa: neon}\n",
-                 "isa is neon, which this CPU or this build does not have"},
+                 "bad.yaml:2: matcher.isa: isa is neon, which this CPU or this build does not have"},
         BadStart{"TooManyRows", "cameras: {source: synthetic}\nlcm: {rows_per_message: 200}\n",
-                 "lcm.rows_per_message: found 200"},
+                 "bad.yaml:2: lcm.rows_per_message: found 200"},
         BadStart{"BadLcmUrl", "cameras: {source: synthetic}\nlcm: {url: \"carrier-pigeon://\"}\n",
-                 "carrier-pigeon"}),
+                 "bad.yaml:2: lcm.url: LCM URL 'carrier-pigeon://'"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
