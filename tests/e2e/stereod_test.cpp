@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -180,12 +181,14 @@ TEST_F(StereodTest, AReaderOfTheLogThatStopsDoesNotStopIt) {
   LcmReceiver receiver(kUrl);
   int frames = 0;
   receiver.subscribe("E2E_FRAME", [&](std::span<const std::byte>) { ++frames; });
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::dup2(ends[1], STDERR_FILENO);
-    ::execl((kBin / "stereod").c_str(), "stereod", "--config", config.c_str(), nullptr);
-    ::_exit(127);
-  }
+  std::string words[] = {(kBin / "stereod").string(), "--config", config.string()};
+  char* argv[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+  pid_t child = 0;
+  ASSERT_EQ(::posix_spawn(&child, argv[0], &actions, nullptr, argv, environ), 0);
+  posix_spawn_file_actions_destroy(&actions);
   const auto receive_frames = [&](int count) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     frames = 0;
