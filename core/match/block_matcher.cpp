@@ -6,7 +6,6 @@
 #include <string>
 
 #include "core/match/isa.h"
-#include "core/match/prefilter.h"
 
 namespace stereod {
 namespace {
@@ -35,25 +34,29 @@ RowRange grown(RowRange rows, int by, RowRange within) {
 BlockMatcher::BlockMatcher(const MatcherOptions& options, Size image)
     : options_(options),
       image_(image),
-      left_input_(image.width, options.window + 2 + kRowsAhead),
-      right_input_(image.width, options.window + 2 + kRowsAhead),
-      left_prefiltered_(prefiltered() ? image.width : 0, options.window + 1),
-      right_prefiltered_(prefiltered() ? image.width : 0, options.window + 1),
       search_(make_search(options, image.width)),
-      winners_(image.width),
-      raw_(image.width + 2 * kMedianMargin, kOutputRows),
-      median_(options.median > 0 ? image.width + kMedianMargin : 0, kOutputRows),
+      batch_(search_ != nullptr ? search_->batch() : 1),
+      left_input_(image.width, options.window + batch_ + 1 + kRowsAhead),
+      right_input_(image.width, options.window + batch_ + 1 + kRowsAhead),
+      left_prefiltered_(prefiltered() ? image.width : 0, options.window + batch_),
+      right_prefiltered_(prefiltered() ? image.width : 0, options.window + batch_),
+      raw_(image.width + 2 * kMedianMargin, kOutputRows + batch_),
+      median_(options.median > 0 ? image.width + kMedianMargin : 0, kOutputRows + batch_),
       invalid_row_(static_cast<std::size_t>(image.width + 2 * kMedianMargin)) {
   std::fill(invalid_row_.begin(), invalid_row_.end(), kInvalidDisparity);
-  for (int y = 0; y < kOutputRows; ++y) {
+  for (int y = 0; y < kOutputRows + batch_; ++y) {
     std::fill_n(raw_.row(y), image.width + 2 * kMedianMargin, kInvalidDisparity);
   }
   if (options.left_right_max_diff >= 0) left_right_check_.emplace(image.width);
   if (options.texture_threshold > 0) texture_check_.emplace(image.width);
   const int r = window_radius();
   if (search_ != nullptr && image.height >= options.window) answerable_ = {r, image.height - r};
-  winners_.first = first_answered_column(options);
-  winners_.end = end_answered_column(options, image.width);
+  waiting_.reserve(static_cast<std::size_t>(batch_));
+  for (int i = 0; i < batch_; ++i) {
+    RowWinners& winners = winners_.emplace_back(image.width);
+    winners.first = first_answered_column(options);
+    winners.end = end_answered_column(options, image.width);
+  }
 }
 
 RowRange BlockMatcher::begin(RowRange rows) noexcept {
@@ -62,12 +65,13 @@ RowRange BlockMatcher::begin(RowRange rows) noexcept {
   searched_ = grown(rows, median_radius(), answerable_);
   if (searched_.first >= searched_.end) {  // nothing to match: one row to push, and all is final
     searched_ = compared_ = {rows.first, rows.first};
-    prefiltered_end_ = rows.first;
+    prefiltered_end_ = searched_end_ = rows.first;
     return {rows.first, rows.first + 1};
   }
   const RowRange image{0, image_.height};
   compared_ = grown(searched_, window_radius(), image);
-  prefiltered_end_ = compared_.first;
+  prefiltered_end_ = searched_end_ = compared_.first;
+  waiting_.clear();
   search_->reset();
   if (texture_check_) texture_check_->reset();
   return prefiltered() ? grown(compared_, 1, image) : compared_;
@@ -82,7 +86,7 @@ RowRange BlockMatcher::push(int y) noexcept {
     if (prefiltered()) prefilter_row(row);
     search_row(row);
   }
-  const int searched_end = std::max(prefiltered_end_ - window_radius(), searched_.first);
+  const int searched_end = std::max(searched_end_ - window_radius(), searched_.first);
   if (searched_end >= searched_.end) {
     finish_rows(output_.end);
   } else {
@@ -95,33 +99,46 @@ void BlockMatcher::prefilter_row(int y) noexcept {
   const int above = y > 0 ? y - 1 : std::min(1, image_.height - 1);
   const int below = y < image_.height - 1 ? y + 1 : std::max(image_.height - 2, 0);
   const auto apply = [&](RowRing<std::uint8_t>& input, RowRing<std::uint8_t>& output) {
-    xsobel_row(input.row(above), input.row(y), input.row(below), image_.width, options_.prefilter_cap,
-               output.row(y));
+    search_->prefilter_row(input.row(above), input.row(y), input.row(below), image_.width,
+                           options_.prefilter_cap, output.row(y));
   };
   apply(left_input_, left_prefiltered_);
   apply(right_input_, right_prefiltered_);
 }
 
-// Adds row y to the windows; once they are full, finds the disparities of the row in their middle.
+// Adds row y to the windows, with others once a batch waits; when they are full, finds the disparities of the
+// row in their middle.
 void BlockMatcher::search_row(int y) noexcept {
   RowRing<std::uint8_t>& left = prefiltered() ? left_prefiltered_ : left_input_;
   RowRing<std::uint8_t>& right = prefiltered() ? right_prefiltered_ : right_input_;
   const bool full = y - compared_.first >= options_.window - 1;
-  search_->add_row(left.row(y), right.row(y), full ? &winners_ : nullptr);
-  if (texture_check_) {
-    const bool leaves = y - compared_.first >= options_.window;
-    texture_check_->add_row(left.row(y), leaves ? left.row(y - options_.window) : nullptr,
-                            options_.prefilter_cap);
-  }
-  if (!full) return;
+  waiting_.push_back({left.row(y), right.row(y), full ? &winners_[waiting_.size()] : nullptr});
+  if (static_cast<int>(waiting_.size()) == batch_ || y + 1 == compared_.end) search_waiting_rows();
+}
 
-  std::int16_t* out = raw_row(y - window_radius());
-  std::fill_n(out, winners_.first, kInvalidDisparity);
-  std::fill(out + winners_.end, out + image_.width, kInvalidDisparity);
-  search_->write(winners_, out);
-  if (texture_check_) texture_check_->reject(winners_, options_, out);
-  if (options_.uniqueness_ratio > 0) reject_ambiguous(winners_, options_.uniqueness_ratio, out);
-  if (left_right_check_) left_right_check_->reject(winners_, options_, out);
+void BlockMatcher::search_waiting_rows() noexcept {
+  search_->add_rows(waiting_);
+  for (const SearchRow& row : waiting_) {
+    const int y = searched_end_++;
+    if (texture_check_) {
+      const bool leaves = y - compared_.first >= options_.window;
+      texture_check_->add_row(row.left, leaves ? left_prefiltered_.row(y - options_.window) : nullptr,
+                              options_.prefilter_cap);
+    }
+    if (row.winners != nullptr) judge_row(y - window_radius(), *row.winners);
+  }
+  waiting_.clear();
+}
+
+// From the winners of row y to its disparities: the tests.
+void BlockMatcher::judge_row(int y, const RowWinners& winners) noexcept {
+  std::int16_t* out = raw_row(y);
+  std::fill_n(out, winners.first, kInvalidDisparity);
+  std::fill(out + winners.end, out + image_.width, kInvalidDisparity);
+  search_->write(winners, out);
+  if (texture_check_) texture_check_->reject(winners, options_, out);
+  if (options_.uniqueness_ratio > 0) reject_ambiguous(winners, options_.uniqueness_ratio, out);
+  if (left_right_check_) left_right_check_->reject(winners, options_, out);
 }
 
 void BlockMatcher::finish_rows(int end) noexcept {
@@ -150,7 +167,7 @@ std::size_t BlockMatcher::scratch_bytes() const noexcept {
   return left_input_.bytes() + right_input_.bytes() + left_prefiltered_.bytes() + right_prefiltered_.bytes() +
          raw_.bytes() + median_.bytes() + (search_ ? search_->scratch_bytes() : 0) +
          (left_right_check_ ? left_right_check_->scratch_bytes() : 0) +
-         (texture_check_ ? texture_check_->scratch_bytes() : 0) + winners_.bytes();
+         (texture_check_ ? texture_check_->scratch_bytes() : 0) + winners_.size() * winners_.front().bytes();
 }
 
 std::unique_ptr<BandMatcher> make_band_matcher(const MatcherOptions& options, Size image) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/match/band_matcher.h"
 #include "core/match/median.h"
@@ -36,6 +37,8 @@ class BlockMatcher final : public BandMatcher {
 
   void prefilter_row(int y) noexcept;
   void search_row(int y) noexcept;
+  void search_waiting_rows() noexcept;
+  void judge_row(int y, const RowWinners& winners) noexcept;
   void filter_row(int y) noexcept;
   void finish_rows(int end) noexcept;
 
@@ -46,12 +49,15 @@ class BlockMatcher final : public BandMatcher {
   RowRange searched_{};    // rows whose winners are needed, the median's neighbours included
   RowRange compared_{};    // prefiltered rows that the windows of those cover
   int prefiltered_end_ = 0;  // the next row for stage (1)
+  int searched_end_ = 0;     // the next row for stage (2)
   int final_end_ = 0;        // rows of the band before this one are final
 
+  std::unique_ptr<RowSearch> search_;
+  const int batch_;  // rows that stage (2) takes at once
   RowRing<std::uint8_t> left_input_, right_input_;
   RowRing<std::uint8_t> left_prefiltered_, right_prefiltered_;
-  std::unique_ptr<RowSearch> search_;
-  RowWinners winners_;
+  std::vector<SearchRow> waiting_;   // prefiltered, for stage (2); at most a batch
+  std::vector<RowWinners> winners_;  // of a batch
   std::optional<LeftRightCheck> left_right_check_;
   std::optional<TextureCheck> texture_check_;
   RowRing<std::int16_t> raw_;  // with kMedianMargin invalid pixels on either side, like invalid_row_

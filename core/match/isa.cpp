@@ -4,7 +4,38 @@
 #include <stdexcept>
 #include <string>
 
+#if defined(__x86_64__) || defined(__i386__)
+#include <cpuid.h>
+#endif
+
 namespace stereod {
+namespace {
+
+#if defined(__x86_64__) || defined(__i386__)
+// Bytes of the first-level data cache, from Intel's "deterministic cache parameters" (CPUID leaf 4); 0 if it
+// does not say. AMD's CPUs do not, and none of them has less than 32 KiB.
+unsigned first_level_cache_bytes() {
+  constexpr unsigned kLeaf = 4;
+  for (unsigned index = 0; index < 8; ++index) {
+    unsigned eax = 0;
+    unsigned ebx = 0;
+    unsigned sets = 0;
+    unsigned edx = 0;
+    if (__get_cpuid_count(kLeaf, index, &eax, &ebx, &sets, &edx) == 0) return 0;
+    const unsigned type = eax & 0x1F;  // 0: no more caches, 1: data, 2: instructions, 3: both
+    const unsigned level = eax >> 5 & 7;
+    if (type == 0) return 0;
+    if (level != 1 || type == 2) continue;
+    const unsigned ways = (ebx >> 22) + 1;
+    const unsigned partitions = (ebx >> 12 & 0x3FF) + 1;
+    const unsigned line = (ebx & 0xFFF) + 1;
+    return ways * partitions * line * (sets + 1);
+  }
+  return 0;
+}
+#endif
+
+}  // namespace
 
 std::vector<Isa> available_isas() {
   std::vector<Isa> isas{Isa::kScalar};
@@ -12,6 +43,8 @@ std::vector<Isa> available_isas() {
   if (__builtin_cpu_supports("ssse3")) isas.push_back(Isa::kSsse3);
   if (__builtin_cpu_supports("sse4.1")) isas.push_back(Isa::kSse41);
   if (__builtin_cpu_supports("avx2")) isas.push_back(Isa::kAvx2);
+#elif defined(__aarch64__) || defined(__ARM_NEON)
+  isas.push_back(Isa::kNeon);  // of every 64-bit ARM; 32-bit programs are built for CPUs that have it, or not
 #endif
   return isas;
 }
@@ -25,6 +58,21 @@ Isa resolve_isa(Isa wanted) {
   throw std::invalid_argument(
       "isa is " + std::string(name_of(wanted)) +
       ", which this CPU or this build does not have; here auto and these are allowed: " + names);
+}
+
+CacheUse resolve_cache_use(CacheUse wanted) {
+  if (wanted != CacheUse::kAuto) return wanted;
+#if defined(__x86_64__) || defined(__i386__)
+  constexpr unsigned kSmallest = 24 * 1024;
+  const unsigned bytes = first_level_cache_bytes();
+  return bytes > 0 && bytes <= kSmallest ? CacheUse::kSmall : CacheUse::kLarge;
+#elif defined(__aarch64__) || defined(__arm__)
+  // Programs cannot ask. The boards' cores share a second-level cache that is smaller than what large takes
+  // for each worker.
+  return CacheUse::kSmall;
+#else
+  return CacheUse::kLarge;
+#endif
 }
 
 }  // namespace stereod

@@ -1,4 +1,4 @@
-// Which instruction sets this CPU has.
+// What this CPU has.
 #pragma once
 
 #include <vector>
@@ -14,5 +14,8 @@ std::vector<Isa> available_isas();
 /// The instruction set to use: the best one for kAuto, else `wanted`. Throws std::invalid_argument with a
 /// sentence if this CPU cannot run `wanted`.
 Isa resolve_isa(Isa wanted);
+
+/// kLarge or kSmall: what suits this CPU for kAuto, else `wanted`.
+CacheUse resolve_cache_use(CacheUse wanted);
 
 }  // namespace stereod

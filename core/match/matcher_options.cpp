@@ -18,6 +18,8 @@ constexpr Names<Isa, 6> kIsas{{{Isa::kAuto, "auto"},
                                {Isa::kSse41, "sse41"},
                                {Isa::kAvx2, "avx2"},
                                {Isa::kNeon, "neon"}}};
+constexpr Names<CacheUse, 3> kCacheUses{
+    {{CacheUse::kAuto, "auto"}, {CacheUse::kLarge, "large"}, {CacheUse::kSmall, "small"}}};
 constexpr Names<Prefilter, 2> kPrefilters{{{Prefilter::kNone, "none"}, {Prefilter::kXsobel, "xsobel"}}};
 constexpr Names<Cost, 3> kCosts{{{Cost::kSad, "sad"}, {Cost::kSsd, "ssd"}, {Cost::kMad, "mad"}}};
 
@@ -49,6 +51,7 @@ std::string_view name_of(Implementation implementation) {
   return find_name(kImplementations, implementation);
 }
 std::string_view name_of(Isa isa) { return find_name(kIsas, isa); }
+std::string_view name_of(CacheUse cache) { return find_name(kCacheUses, cache); }
 std::string_view name_of(Prefilter prefilter) { return find_name(kPrefilters, prefilter); }
 std::string_view name_of(Cost cost) { return find_name(kCosts, cost); }
 
@@ -56,6 +59,7 @@ std::optional<Implementation> parse_implementation(std::string_view name) {
   return find_value(kImplementations, name);
 }
 std::optional<Isa> parse_isa(std::string_view name) { return find_value(kIsas, name); }
+std::optional<CacheUse> parse_cache_use(std::string_view name) { return find_value(kCacheUses, name); }
 std::optional<Prefilter> parse_prefilter(std::string_view name) { return find_value(kPrefilters, name); }
 std::optional<Cost> parse_cost(std::string_view name) { return find_value(kCosts, name); }
 

@@ -16,6 +16,13 @@ enum class Implementation { kNaive, kSliding, kSimd };
 /// Instruction sets that the simd implementation is compiled for. kAuto takes the best one the CPU has.
 enum class Isa { kAuto, kScalar, kSsse3, kSse41, kAvx2, kNeon };
 
+/// What the simd implementation sacrifices to the caches. The result is the same.
+enum class CacheUse {
+  kAuto,   ///< small on CPUs with a first-level data cache of 24 KiB or less, and on ARM; else large
+  kLarge,  ///< keeps the differences of all rows of the window, half a MiB at 640 px and 64 disparities
+  kSmall,  ///< calculates them twice, and works in strips of columns whose sums stay in a cache of 24 KiB
+};
+
 /// What the pictures go through before they are compared.
 enum class Prefilter {
   kNone,    ///< raw grey values, the thesis' cost
@@ -42,6 +49,7 @@ struct MatcherOptions {
   int speckle_max_diff = 1;      ///< px between neighbours of one region
   Implementation implementation = Implementation::kSimd;
   Isa isa = Isa::kAuto;
+  CacheUse cache = CacheUse::kAuto;
 
   friend bool operator==(const MatcherOptions&, const MatcherOptions&) = default;
   int units_per_pixel() const { return subpixel ? kSubpixelUnits : 1; }
@@ -59,10 +67,12 @@ std::optional<std::string> problem_with(const MatcherOptions& options);
 /// The names used in configuration files, on command lines and in messages. parse_…: nothing if unknown.
 std::string_view name_of(Implementation implementation);
 std::string_view name_of(Isa isa);
+std::string_view name_of(CacheUse cache);
 std::string_view name_of(Prefilter prefilter);
 std::string_view name_of(Cost cost);
 std::optional<Implementation> parse_implementation(std::string_view name);
 std::optional<Isa> parse_isa(std::string_view name);
+std::optional<CacheUse> parse_cache_use(std::string_view name);
 std::optional<Prefilter> parse_prefilter(std::string_view name);
 std::optional<Cost> parse_cost(std::string_view name);
 

@@ -19,12 +19,8 @@ class NaiveSearch final : public RowSearch {
 
   void reset() noexcept override {}
 
-  void add_row(const std::uint8_t* left, const std::uint8_t* right, RowWinners* winners) noexcept override {
-    std::rotate(left_.begin(), left_.begin() + 1, left_.end());
-    std::rotate(right_.begin(), right_.begin() + 1, right_.end());
-    left_.back() = left;
-    right_.back() = right;
-    if (winners != nullptr) search(*winners);
+  void add_rows(std::span<const SearchRow> rows) noexcept override {
+    for (const SearchRow& row : rows) add_row(row.left, row.right, row.winners);
   }
 
   void write(const RowWinners& winners, std::int16_t* out) const noexcept override {
@@ -36,6 +32,14 @@ class NaiveSearch final : public RowSearch {
   }
 
  private:
+  void add_row(const std::uint8_t* left, const std::uint8_t* right, RowWinners* winners) {
+    std::rotate(left_.begin(), left_.begin() + 1, left_.end());
+    std::rotate(right_.begin(), right_.begin() + 1, right_.end());
+    left_.back() = left;
+    right_.back() = right;
+    if (winners != nullptr) search(*winners);
+  }
+
   void search(RowWinners& winners) {
     for (int x = winners.first; x < winners.end; ++x) {
       const int n = std::min(options_.disparities, x - winners.first + 1);

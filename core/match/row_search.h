@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 
 #include "core/aligned_buffer.h"
 #include "core/image.h"
 #include "core/match/matcher_options.h"
+#include "core/match/prefilter.h"
 
 namespace stereod {
 
@@ -35,6 +37,15 @@ struct RowWinners {
   AlignedBuffer<std::uint32_t> rival;   ///< least C(k') with |k' − k| > 1, kNoRival if there is none
 };
 
+/// A prefiltered row of both pictures for a search. The memory stays as it is until `window` more rows were
+/// added.
+struct SearchRow {
+  const std::uint8_t* left;
+  const std::uint8_t* right;
+  /// Gets the winners of the row in the middle of the last `window` rows; null for the first window − 1 rows.
+  RowWinners* winners;
+};
+
 /// Takes prefiltered rows one after the other and finds winners for the row in the middle of the last
 /// `window` of them. Allocates only in the constructor.
 class RowSearch {
@@ -44,14 +55,22 @@ class RowSearch {
   /// Forgets all rows.
   virtual void reset() noexcept = 0;
 
-  /// Adds the next row of both pictures. The memory stays as it is until `window` more rows were added.
-  /// Fills `winners` unless null, which is for the first window − 1 rows; `before` and `after` only with
-  /// subpixel, `rival` only with uniqueness_ratio.
-  virtual void add_row(const std::uint8_t* left, const std::uint8_t* right, RowWinners* winners) noexcept = 0;
+  /// How many rows add_rows() is best given at once.
+  virtual int batch() const noexcept { return 1; }
 
-  /// Writes the disparities of what add_row() found, from winners.first on: write_disparities() of
+  /// Adds the next rows of both pictures, at most batch(). Of the winners, `before` and `after` are filled
+  /// only with subpixel, `rival` only with uniqueness_ratio.
+  virtual void add_rows(std::span<const SearchRow> rows) noexcept = 0;
+
+  /// Writes the disparities of what add_rows() found, from winners.first on: write_disparities() of
   /// row_filters.h, unless the search has a faster way to the same result.
   virtual void write(const RowWinners& winners, std::int16_t* out) const noexcept = 0;
+
+  /// xsobel_row() of prefilter.h, or a faster way to the same result.
+  virtual void prefilter_row(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below,
+                             int width, int cap, std::uint8_t* out) const noexcept {
+    xsobel_row(above, row, below, width, cap, out);
+  }
 
   virtual std::size_t scratch_bytes() const noexcept = 0;
 };

@@ -1,8 +1,12 @@
-// Drives the vector kernels: which arithmetic fits, how the disparities are cut into chunks, whose memory is
-// used.
+// Drives the vector kernels: which arithmetic fits, how disparities are cut into chunks and columns into strips,
+// whose memory is used.
+#include <algorithm>
+#include <vector>
+
 #include "core/match/isa.h"
 #include "core/match/kernels/kernel.h"
 #include "core/match/row_filters.h"
+#include "core/match/row_ring.h"
 #include "core/match/row_search.h"
 
 namespace stereod {
@@ -11,6 +15,7 @@ namespace {
 using kernels::Arithmetic;
 using kernels::Kernel;
 using kernels::Shape;
+using kernels::Strip;
 
 const Kernel& kernel_for(Isa isa) {
   switch (isa) {
@@ -21,6 +26,9 @@ const Kernel& kernel_for(Isa isa) {
       return kernels::kSse41Kernel;
     case Isa::kAvx2:
       return kernels::kAvx2Kernel;
+#elif defined(__aarch64__) || defined(__ARM_NEON)
+    case Isa::kNeon:
+      return kernels::kNeonKernel;
 #endif
     default:
       return kernels::kScalarKernel;
@@ -33,7 +41,8 @@ Arithmetic fitting_arithmetic(const MatcherOptions& options) {
   constexpr int kMasked = 0xFFFF;  // what disparities that cannot be searched count as; no cost may reach it
   if (largest >= kMasked) return Arithmetic::kWide;
   if (!small_differences) return Arithmetic::kRaw;
-  return largest * 8 + 7 < kMasked ? Arithmetic::kPacked : Arithmetic::kNarrow;
+  if (largest * 8 + 7 < kMasked) return Arithmetic::kPacked;
+  return largest * 4 + 3 < kMasked ? Arithmetic::kPackedHalves : Arithmetic::kNarrow;
 }
 
 int rounded_up(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
@@ -49,11 +58,28 @@ Shape shape_for(const MatcherOptions& options, int width, const Kernel& kernel) 
     shape.chunks = 1;
   } else {
     shape.chunks = (options.disparities + kernels::kMaxChunk - 1) / kernels::kMaxChunk;
+    shape.recompute = resolve_cache_use(options.cache) == CacheUse::kSmall;
   }
   shape.chunk = rounded_up((options.disparities + shape.chunks - 1) / shape.chunks, kernel.granularity);
   shape.neighbours = options.subpixel;
   shape.rival = options.uniqueness_ratio > 0;
   return shape;
+}
+
+// Strips overlap by a window less one column. In a cache of 24 KiB, 15 KiB of column sums leave room for the
+// rows compared and a block's results; strips narrower than 64 columns would mostly overlap.
+std::vector<Strip> strips_for(const Shape& shape) {
+  const int overlap = shape.window - 1;
+  int answers = shape.columns() - overlap;
+  if (shape.recompute) {
+    constexpr int kSumBytes = 15 * 1024;
+    answers = std::max(64, kSumBytes / (2 * shape.padded_disparities()) - overlap);
+  }
+  std::vector<Strip> strips;
+  for (int first = 0; first < shape.columns() - overlap; first += answers) {
+    strips.push_back({first, std::min(first + answers + overlap, shape.columns())});
+  }
+  return strips;
 }
 
 std::size_t size(int value) { return static_cast<std::size_t>(value); }
@@ -64,28 +90,35 @@ class SimdSearch final : public RowSearch {
       : options_(options),
         kernel_(kernel_for(resolve_isa(options.isa))),
         shape_(shape_for(options, width, kernel_)),
-        right_row_(size(shape_.right_row_bytes())),
-        differences_(size(shape_.window) * difference_row_bytes()),
-        column_sums_(size(shape_.chunks) * size(shape_.window + shape_.columns()) * size(shape_.chunk)),
-        block_sums_(size(kernels::kBlockColumns) * size(shape_.padded_disparities()) + 2 * kBlockMargin) {}
-
-  void reset() noexcept override {
-    column_sums_.fill_zero();
-    differences_.fill_zero();
-    oldest_ = 0;
+        strips_(strips_for(shape_)),
+        right_rows_(shape_.right_row_bytes(), shape_.recompute ? shape_.window + kBatch : 1),
+        left_rows_(size(shape_.recompute ? shape_.window + kBatch : 1)),
+        zeros_(size(shape_.right_row_bytes())),
+        differences_(shape_.recompute ? 0 : size(shape_.window) * difference_row_bytes()),
+        block_sums_(size(kernels::kBlockColumns) * size(shape_.padded_disparities()) + 2 * kBlockMargin) {
+    for (const Strip& strip : strips_) {
+      column_sums_.emplace_back(size(shape_.window + strip.columns()) * size(shape_.padded_disparities()));
+    }
   }
 
-  void add_row(const std::uint8_t* left, const std::uint8_t* right, RowWinners* winners) noexcept override {
-    kernel_.prepare_right_row(shape_, right, right_row_.data());
-    const kernels::AddedRow row{left + shape_.min_disparity, right_row_.data(),
-                                differences_.data() + size(oldest_) * difference_row_bytes()};
-    const kernels::Scratch scratch{column_sums_.data(), block_sums_.data() + kBlockMargin};
-    oldest_ = (oldest_ + 1) % shape_.window;
-    if (winners == nullptr) return kernel_.add_row(shape_, row, scratch);
-    const auto at = size(winners->first);
-    kernel_.search_row(shape_, row, scratch,
-                       {winners->index.data() + at, winners->cost.data() + at, winners->before.data() + at,
-                        winners->after.data() + at, winners->rival.data() + at});
+  void reset() noexcept override {
+    for (auto& sums : column_sums_) sums.fill_zero();
+    differences_.fill_zero();
+    next_row_ = 0;
+  }
+
+  int batch() const noexcept override { return shape_.recompute ? kBatch : 1; }
+
+  void add_rows(std::span<const SearchRow> rows) noexcept override {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const int y = next_row_ + static_cast<int>(i);
+      left_rows_[size(y) % left_rows_.size()] = rows[i].left + shape_.min_disparity;
+      kernel_.prepare_right_row(shape_, rows[i].right, right_rows_.row(y));
+    }
+    for (std::size_t s = 0; s < strips_.size(); ++s) {
+      for (std::size_t i = 0; i < rows.size(); ++i) add_row(s, next_row_ + static_cast<int>(i), rows[i].winners);
+    }
+    next_row_ += static_cast<int>(rows.size());
   }
 
   void write(const RowWinners& winners, std::int16_t* out) const noexcept override {
@@ -96,24 +129,56 @@ class SimdSearch final : public RowSearch {
                         options_.disparities, out + at);
   }
 
+  void prefilter_row(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width,
+                     int cap, std::uint8_t* out) const noexcept override {
+    kernel_.xsobel_row(above, row, below, width, cap, out);
+  }
+
   std::size_t scratch_bytes() const noexcept override {
-    return right_row_.size() + differences_.size() + 2 * (column_sums_.size() + block_sums_.size());
+    std::size_t bytes = right_rows_.bytes() + left_rows_.size() * sizeof(left_rows_[0]) + zeros_.size() +
+                        differences_.size() + 2 * block_sums_.size();
+    for (const auto& sums : column_sums_) bytes += 2 * sums.size();
+    return bytes;
   }
 
  private:
+  static constexpr int kBatch = 16;  // rows that pass through a strip while its sums are in the cache
   static constexpr std::size_t kBlockMargin =
       64;  // the neighbours of the first and last disparity may be read
 
-  std::size_t difference_row_bytes() const { return static_cast<std::size_t>(shape_.difference_row_bytes()); }
+  std::size_t difference_row_bytes() const { return size(shape_.columns()) * size(shape_.padded_disparities()); }
+
+  kernels::InputRow input_row(int y) const {
+    if (y < 0) return {zeros_.data(), zeros_.data()};
+    return {left_rows_[size(y) % left_rows_.size()], right_rows_.row(y)};
+  }
+
+  void add_row(std::size_t strip, int y, RowWinners* winners) noexcept {
+    kernels::RowChange change{input_row(y), {}, nullptr};
+    if (shape_.recompute) {
+      change.removed = input_row(y - shape_.window);
+    } else {
+      change.differences = differences_.data() + size(y % shape_.window) * difference_row_bytes();
+    }
+    const kernels::Scratch scratch{column_sums_[strip].data(), block_sums_.data() + kBlockMargin};
+    if (winners == nullptr) return kernel_.add_row(shape_, strips_[strip], change, scratch);
+    const auto at = size(winners->first);
+    kernel_.search_row(shape_, strips_[strip], change, scratch,
+                       {winners->index.data() + at, winners->cost.data() + at, winners->before.data() + at,
+                        winners->after.data() + at, winners->rival.data() + at});
+  }
 
   MatcherOptions options_;
   const Kernel& kernel_;
   Shape shape_;
-  AlignedBuffer<std::uint8_t> right_row_;    // as the kernel wants it
-  AlignedBuffer<std::uint8_t> differences_;  // of the last `window` rows, in turn
-  AlignedBuffer<std::uint16_t> column_sums_;
+  std::vector<Strip> strips_;                     // one over all columns, unless shape_.recompute
+  RowRing<std::uint8_t> right_rows_;              // as the kernel wants them
+  std::vector<const std::uint8_t*> left_rows_;    // row y is at y modulo the size
+  AlignedBuffer<std::uint8_t> zeros_;             // what leaves the window while it fills
+  AlignedBuffer<std::uint8_t> differences_;       // of the last `window` rows, in turn
+  std::vector<AlignedBuffer<std::uint16_t>> column_sums_;  // of each strip
   AlignedBuffer<std::uint16_t> block_sums_;
-  int oldest_ = 0;  // which row of differences leaves next
+  int next_row_ = 0;
 };
 
 }  // namespace

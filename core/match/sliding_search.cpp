@@ -24,15 +24,8 @@ class SlidingSearch final : public RowSearch {
     oldest_ = 0;
   }
 
-  void add_row(const std::uint8_t* left, const std::uint8_t* right, RowWinners* winners) noexcept override {
-    std::uint16_t* s1 = row_sums_.data() + matrix_size() * static_cast<std::size_t>(oldest_);
-    for (int k = 0; k < options_.disparities; ++k) {
-      const auto at = static_cast<std::size_t>(k) * static_cast<std::size_t>(columns_);
-      difference_row(left, right, k);
-      sum_row(k, s1 + at, window_sums_.data() + at);
-    }
-    oldest_ = (oldest_ + 1) % options_.window;
-    if (winners != nullptr) search(*winners);
+  void add_rows(std::span<const SearchRow> rows) noexcept override {
+    for (const SearchRow& row : rows) add_row(row.left, row.right, row.winners);
   }
 
   void write(const RowWinners& winners, std::int16_t* out) const noexcept override {
@@ -45,6 +38,17 @@ class SlidingSearch final : public RowSearch {
   }
 
  private:
+  void add_row(const std::uint8_t* left, const std::uint8_t* right, RowWinners* winners) {
+    std::uint16_t* s1 = row_sums_.data() + matrix_size() * static_cast<std::size_t>(oldest_);
+    for (int k = 0; k < options_.disparities; ++k) {
+      const auto at = static_cast<std::size_t>(k) * static_cast<std::size_t>(columns_);
+      difference_row(left, right, k);
+      sum_row(k, s1 + at, window_sums_.data() + at);
+    }
+    oldest_ = (oldest_ + 1) % options_.window;
+    if (winners != nullptr) search(*winners);
+  }
+
   // Column c of the matrices is image column min_disparity + c.
   std::size_t matrix_size() const {
     return static_cast<std::size_t>(options_.disparities) * static_cast<std::size_t>(columns_);

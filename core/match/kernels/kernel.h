@@ -6,19 +6,21 @@
 
 namespace stereod::kernels {
 
-/// Columns searched in one go, so that the costs of all their disparities stay in the first-level cache.
+/// Columns searched in one go, so that the sums of all their disparities stay in the first-level cache.
 inline constexpr int kBlockColumns = 32;
 /// Disparities whose running sums fit in the registers; more are searched in chunks of at most this many.
 inline constexpr int kMaxChunk = 64;
 inline constexpr int kMaxChunks = 4;
+/// Bytes after a row of image or prepared pixels that a kernel may read.
+inline constexpr int kRowMargin = 64;
 
-/// How the sums are calculated.
+/// How the sums are calculated. A group is 8 disparities.
 enum class Arithmetic {
-  kPacked,  ///< |L−R| ≤ 126; 16-bit sums are cost·8 + number of the group of 8 disparities: the minimum tells
-            ///< both
-  kNarrow,  ///< |L−R| ≤ 126; 16-bit sums are costs, the winner is found by comparing with the minimum
-  kRaw,     ///< |L−R| ≤ 255; 16-bit sums are costs
-  kWide,    ///< |L−R| ≤ 255; 32-bit sums, for windows whose cost does not fit in 16 bits
+  kPacked,  ///< |L−R| ≤ 126; 16-bit sums are cost·8 + number of the group in the chunk: the minimum tells both
+  kPackedHalves,  ///< the same with cost·4 + number of the group in its half of the chunk, a minimum for each half
+  kNarrow,        ///< |L−R| ≤ 126; 16-bit sums are costs, the winner is found by comparing with the minimum
+  kRaw,           ///< |L−R| ≤ 255; likewise
+  kWide,          ///< |L−R| ≤ 255; 32-bit sums, for windows whose cost does not fit in 16 bits
 };
 
 /// What is fixed for a band. Column c of a row is image column min_disparity + c; in it the disparities
@@ -31,16 +33,20 @@ struct Shape {
   int window;
   int chunk;  ///< disparities in a chunk, a multiple of the kernel's granularity, ≤ kMaxChunk (kWide: any)
   int chunks;
-  bool neighbours;  ///< RowWinners::before and after are wanted
-  bool rival;       ///< RowWinners::rival is wanted
+  bool recompute;   ///< differences that leave the window are calculated again, not kept (never with kWide)
+  bool neighbours;  ///< Winners::before and after are wanted
+  bool rival;       ///< Winners::rival is wanted
   int columns() const { return width - min_disparity; }
   int padded_disparities() const { return chunk * chunks; }
-  /// Bytes of a right row as prepare_right_row() writes it.
-  int right_row_bytes() const { return 2 * (width + padded_disparities()) + 64; }
-  /// Bytes of one row of differences.
-  std::ptrdiff_t difference_row_bytes() const {
-    return static_cast<std::ptrdiff_t>(columns()) * padded_disparities();
-  }
+  /// Bytes of a right row as Kernel::prepare_right_row writes it.
+  int right_row_bytes() const { return 2 * (width + padded_disparities()) + kRowMargin; }
+};
+
+/// The columns [first, end) of a row that are done in one go, with column sums of their own: a whole row, or
+/// a strip whose column sums stay in the first-level cache from row to row. Its windows lie within it.
+struct Strip {
+  int first, end;
+  int columns() const { return end - first; }
 };
 
 /// Where a search leaves its results; element 0 is the first column with an answer.
@@ -52,18 +58,24 @@ struct Winners {
   std::uint32_t* rival;
 };
 
-/// The row that comes into the window, and the place of the one that leaves it.
-struct AddedRow {
+/// A row of both pictures as the kernels take it.
+struct InputRow {
   const std::uint8_t* left;   ///< begins at image column min_disparity
-  const std::uint8_t* right;  ///< as prepare_right_row() wrote it
-  /// |L−R| of the row that leaves the window, zeros while it fills; becomes that of the row added. 64-byte
-  /// aligned, [chunk][column][k].
+  const std::uint8_t* right;  ///< as Kernel::prepare_right_row wrote it
+};
+
+/// The row that comes into the window, and the one that leaves it.
+struct RowChange {
+  InputRow added;
+  InputRow removed;  ///< only with Shape::recompute: the row that leaves, zeros while the window fills
+  /// Only without: |L−R| of the row that leaves, zeros while the window fills; becomes that of the row added.
+  /// 64-byte aligned, [chunk][column of the strip][k].
   std::uint8_t* differences;
 };
 
-/// Memory of one search. 64-byte aligned.
+/// Memory of one strip. 64-byte aligned.
 struct Scratch {
-  std::uint16_t* column_sums;  ///< [chunk][window + columns][k]; the first `window` columns stay zero
+  std::uint16_t* column_sums;  ///< [chunk][window + column of the strip][k]; the first `window` stay zero
   std::uint16_t* block_sums;   ///< [kBlockColumns][padded_disparities], with 64 elements before and after
 };
 
@@ -71,15 +83,19 @@ struct Scratch {
 struct Kernel {
   int granularity;  ///< disparities in a byte vector; a chunk is a multiple of it
 
-  /// Writes a right row backwards, so that growing disparity means growing address, and with the two halves
-  /// of a chunk interleaved byte by byte, so that widening the bytes to 16 bits leaves disparities in order.
+  /// xsobel_row() of core/match/prefilter.h.
+  void (*xsobel_row)(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width,
+                     int cap, std::uint8_t* out);
+
+  /// Writes a right row backwards, so that growing disparity means growing address, in the order in which
+  /// the kernel's widening of bytes to 16 bits leaves disparities in order.
   void (*prepare_right_row)(const Shape&, const std::uint8_t* right, std::uint8_t* out);
 
-  /// Adds a row to the column sums and subtracts the one that leaves.
-  void (*add_row)(const Shape&, const AddedRow&, const Scratch&);
+  /// Adds a row to the column sums of a strip and subtracts the one that leaves.
+  void (*add_row)(const Shape&, const Strip&, const RowChange&, const Scratch&);
 
   /// The same, and finds the winner of every column that has an answer.
-  void (*search_row)(const Shape&, const AddedRow&, const Scratch&, const Winners&);
+  void (*search_row)(const Shape&, const Strip&, const RowChange&, const Scratch&, const Winners&);
 
   /// interpolate<float>() of core/match/interpolation.h; sums of absolute differences are small enough for
   /// it.
@@ -93,6 +109,9 @@ extern const Kernel kScalarKernel;
 extern const Kernel kSsse3Kernel;
 extern const Kernel kSse41Kernel;
 extern const Kernel kAvx2Kernel;
+#endif
+#if defined(__aarch64__) || defined(__ARM_NEON)
+extern const Kernel kNeonKernel;
 #endif
 
 }  // namespace stereod::kernels

@@ -11,63 +11,77 @@ namespace stereod::kernels {
 
 struct VectorAvx2 : BytesX86<2> {
   static constexpr int kBytes = 32;
+  static constexpr std::uint16_t kBias = 0;
+  static constexpr bool kEvenOdd = true;
   using Reg = __m256i;
 
   static Reg load(const void* p) { return _mm256_loadu_si256(static_cast<const __m256i*>(p)); }
-  static Reg load_once(const void* p) {
-    Reg a = load(p);
-    asm("" : "+x"(a));
-    return a;
-  }
   static Reg load_aligned(const void* p) { return _mm256_load_si256(static_cast<const __m256i*>(p)); }
-  static void store(void* p, Reg a) { _mm256_storeu_si256(static_cast<__m256i*>(p), a); }
+  static void store_aligned(void* p, Reg a) { _mm256_store_si256(static_cast<__m256i*>(p), a); }
   static Reg broadcast8(std::uint8_t value) { return _mm256_set1_epi8(static_cast<char>(value)); }
   static Reg broadcast16(std::uint16_t value) { return _mm256_set1_epi16(static_cast<short>(value)); }
+  static void pin(Reg& a) { asm("" : "+x"(a)); }
 
   static Reg abs_diff_u8(Reg a, Reg b) {
     return _mm256_or_si256(_mm256_subs_epu8(a, b), _mm256_subs_epu8(b, a));
   }
-  static Reg sub8(Reg a, Reg b) { return _mm256_sub_epi8(a, b); }
-  static Reg even_u8(Reg a) { return _mm256_and_si256(a, _mm256_set1_epi16(0xFF)); }
-  static Reg odd_u8(Reg a) { return _mm256_srli_epi16(a, 8); }
+  static Reg abs_diff_small(Reg a, Reg b) { return _mm256_abs_epi8(_mm256_sub_epi8(a, b)); }
+
   template <int kShift>
-  static Reg even_s8(Reg a) {
-    return _mm256_maddubs_epi16(_mm256_set1_epi16(1 << kShift), a);
+  static void change_small(Reg added, Reg removed, Reg& first, Reg& second) {
+    const Reg change = _mm256_sub_epi8(added, removed);
+    first = _mm256_add_epi16(first, _mm256_maddubs_epi16(_mm256_set1_epi16(1 << kShift), change));
+    second = _mm256_add_epi16(
+        second, _mm256_maddubs_epi16(_mm256_set1_epi16(static_cast<short>(256 << kShift)), change));
   }
-  template <int kShift>
-  static Reg odd_s8(Reg a) {
-    return _mm256_maddubs_epi16(_mm256_set1_epi16(static_cast<short>(256 << kShift)), a);
+  static void change_any(Reg added, Reg removed, Reg& first, Reg& second) {
+    const Reg factors = _mm256_set1_epi16(static_cast<short>(0xFF01));
+    first = _mm256_add_epi16(first, _mm256_maddubs_epi16(_mm256_unpacklo_epi8(added, removed), factors));
+    second = _mm256_add_epi16(second, _mm256_maddubs_epi16(_mm256_unpackhi_epi8(added, removed), factors));
   }
+
   static Reg add16(Reg a, Reg b) { return _mm256_add_epi16(a, b); }
   static Reg sub16(Reg a, Reg b) { return _mm256_sub_epi16(a, b); }
-  static Reg bit_or(Reg a, Reg b) { return _mm256_or_si256(a, b); }
-  static Reg min_u16(Reg a, Reg b) { return _mm256_min_epu16(a, b); }
+  static Reg min16(Reg a, Reg b) { return _mm256_min_epu16(a, b); }
+  static Reg masked(Reg a, Reg mask) { return _mm256_or_si256(a, mask); }
+
+  // Unpacking left the lower and the upper eight bytes of each half of the vector.
+  static void store_in_order(std::uint16_t* p, Reg first, Reg second) {
+    store_aligned(p, _mm256_permute2x128_si256(first, second, 0x20));
+    store_aligned(p + 16, _mm256_permute2x128_si256(first, second, 0x31));
+  }
+  static void load_in_order(const std::uint16_t* p, Reg& first, Reg& second) {
+    const Reg lower = load(p);
+    const Reg upper = load(p + 16);
+    first = _mm256_permute2x128_si256(lower, upper, 0x20);
+    second = _mm256_permute2x128_si256(lower, upper, 0x31);
+  }
 
   static std::uint32_t least_lane(Reg a) {
     const __m128i folded = _mm_min_epu16(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
     return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(folded)));
   }
 
-  template <int kVectors>
+  template <int kVectors, bool kEvenOddOrder>
   static std::uint32_t first_equal(const Reg* sums, Reg wanted) {
     std::uint64_t equal = 0;
 #pragma GCC unroll 8
     for (int pair = 0; pair < kVectors; ++pair) {  // 32 disparities, as 32 bits
-      const Reg first = sums[register_of<kVectors>(2 * pair)];
-      const Reg second = sums[register_of<kVectors>(2 * pair + 1)];
-      const Reg bytes =
-          _mm256_packs_epi16(_mm256_cmpeq_epi16(first, wanted), _mm256_cmpeq_epi16(second, wanted));
-      const Reg ordered = _mm256_permute4x64_epi64(bytes, _MM_SHUFFLE(3, 1, 2, 0));  // packs works in halves
-      equal |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_epi8(ordered)))
-               << (32 * pair);
+      const Reg first = sums[register_of<kVectors, kEvenOddOrder>(2 * pair)];
+      const Reg second = sums[register_of<kVectors, kEvenOddOrder>(2 * pair + 1)];
+      Reg bytes = _mm256_packs_epi16(_mm256_cmpeq_epi16(first, wanted), _mm256_cmpeq_epi16(second, wanted));
+      // packs works in halves, as unpack does.
+      if constexpr (kEvenOddOrder) bytes = _mm256_permute4x64_epi64(bytes, _MM_SHUFFLE(3, 1, 2, 0));
+      equal |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_epi8(bytes))) << (32 * pair);
     }
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
   }
 
  private:
   // Which register holds the `position`-th group of 16 disparities of the chunk.
-  template <int kVectors>
+  template <int kVectors, bool kEvenOddOrder>
   static constexpr int register_of(int position) {
+    if (!kEvenOddOrder) return position;
     return position < kVectors ? 2 * position : 2 * (position - kVectors) + 1;
   }
 };

@@ -9,23 +9,28 @@ namespace stereod::kernels {
 
 struct VectorScalar {
   static constexpr int kBytes = 16;
-  // Little-endian: byte 2i is the low half of lane i, byte 2i + 1 its high half.
+  /// Added to every 16-bit sum, modulo 65536, so that min16() may compare signed numbers.
+  static constexpr std::uint16_t kBias = 0;
+  /// In which order the two halves that widening signed bytes leaves hold them: the even and the odd bytes, or
+  /// (false) the lower and the upper eight. Unsigned bytes always widen to lower and upper, except that
+  /// vectors of 32 bytes do that in each half for itself.
+  static constexpr bool kEvenOdd = false;
   using Reg [[gnu::vector_size(16)]] = std::uint16_t;
   using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
-  using Signed [[gnu::vector_size(16)]] = std::int16_t;
 
   static Reg load(const void* p) {
     Reg a;
     std::memcpy(&a, p, sizeof(a));
     return a;
   }
-  /// The same, kept in a register: compilers like to load again what an instruction can take from memory,
-  /// which costs twice where a load crosses a cache line.
-  static Reg load_once(const void* p) { return load(p); }
   static Reg load_aligned(const void* p) { return load(p); }
-  static void store(void* p, Reg a) { std::memcpy(p, &a, sizeof(a)); }
+  static void store_aligned(void* p, Reg a) { std::memcpy(p, &a, sizeof(a)); }
   static Reg broadcast8(std::uint8_t value) { return reinterpret_cast<Reg>(Bytes{} + value); }
   static Reg broadcast16(std::uint16_t value) { return Reg{} + value; }
+
+  /// Keeps a value in its register: compilers like to load again what an instruction can take from memory,
+  /// and to move what they could leave in place.
+  static void pin(Reg&) {}
 
   /// 16 bytes in reverse order. Here and below the 16 or 32 bytes read may overlap those written.
   static void reverse16(const std::uint8_t* in, std::uint8_t* out) {
@@ -43,35 +48,53 @@ struct VectorScalar {
     std::memcpy(out, bytes, sizeof(bytes));
   }
 
-  /// |a − b| of unsigned bytes.
+  /// |a − b| of unsigned bytes; small: that differ by at most 127.
   static Reg abs_diff_u8(Reg a, Reg b) {
     const auto x = reinterpret_cast<Bytes>(a);
     const auto y = reinterpret_cast<Bytes>(b);
     return reinterpret_cast<Reg>(x > y ? x - y : y - x);
   }
-  /// a − b of bytes, modulo 256.
-  static Reg sub8(Reg a, Reg b) {
-    return reinterpret_cast<Reg>(reinterpret_cast<Bytes>(a) - reinterpret_cast<Bytes>(b));
-  }
-  /// The even bytes, the odd bytes, as 16-bit lanes: unsigned, and signed times 2^kShift.
-  static Reg even_u8(Reg a) { return a & 0xFF; }
-  static Reg odd_u8(Reg a) { return a >> 8; }
+  static Reg abs_diff_small(Reg a, Reg b) { return abs_diff_u8(a, b); }
+
+  /// Adds the bytes added − removed to 16-bit lanes: differences that fit in a signed byte, times 2^kShift, or
+  /// any.
   template <int kShift>
-  static Reg even_s8(Reg a) {
-    return reinterpret_cast<Reg>(reinterpret_cast<Signed>(a << 8) >> (8 - kShift));
+  static void change_small(Reg added, Reg removed, Reg& first, Reg& second) {
+    const Bytes change = reinterpret_cast<Bytes>(added) - reinterpret_cast<Bytes>(removed);
+    for (int i = 0; i < 8; ++i) {
+      first[i] = static_cast<std::uint16_t>(first[i] + static_cast<std::int8_t>(change[i]) * (1 << kShift));
+      second[i] =
+          static_cast<std::uint16_t>(second[i] + static_cast<std::int8_t>(change[i + 8]) * (1 << kShift));
+    }
   }
-  template <int kShift>
-  static Reg odd_s8(Reg a) {
-    return reinterpret_cast<Reg>(reinterpret_cast<Signed>(a & 0xFF00) >> (8 - kShift));
+  static void change_any(Reg added, Reg removed, Reg& first, Reg& second) {
+    const auto in = reinterpret_cast<Bytes>(added);
+    const auto out = reinterpret_cast<Bytes>(removed);
+    for (int i = 0; i < 8; ++i) {
+      first[i] = static_cast<std::uint16_t>(first[i] + in[i] - out[i]);
+      second[i] = static_cast<std::uint16_t>(second[i] + in[i + 8] - out[i + 8]);
+    }
   }
-  /// 16-bit lanes, modulo 65536.
+
+  /// 16-bit lanes, modulo 65536; min16 of biased numbers.
   static Reg add16(Reg a, Reg b) { return a + b; }
   static Reg sub16(Reg a, Reg b) { return a - b; }
-  static Reg bit_or(Reg a, Reg b) { return a | b; }
-  static Reg min_u16(Reg a, Reg b) { return a < b ? a : b; }
+  static Reg min16(Reg a, Reg b) { return a < b ? a : b; }
+  /// The biased number where the mask is 0 plus bias, the largest one where it is 0xFFFF plus bias.
+  static Reg masked(Reg a, Reg mask) { return a | mask; }
 
-  /// The least 16-bit lane in the low half, in the high half the first place it has among groups of 8 lanes
-  /// laid over each other (wider vectors fold onto 8 lanes).
+  /// The two halves of a vector of unsigned bytes that was widened, from and to 2·kBytes of memory in order.
+  static void store_in_order(std::uint16_t* p, Reg first, Reg second) {
+    store_aligned(p, first);
+    store_aligned(p + 8, second);
+  }
+  static void load_in_order(const std::uint16_t* p, Reg& first, Reg& second) {
+    first = load(p);
+    second = load(p + 8);
+  }
+
+  /// The least lane less the bias in the low half, in the high half the first place it has among groups of 8
+  /// lanes laid over each other (wider vectors fold onto 8 lanes).
   static std::uint32_t least_lane(Reg a) {
     std::uint32_t least = static_cast<std::uint32_t>(a[0]) << 3;  // value and place in one number to compare
     for (std::uint32_t i = 1; i < 8; ++i) {
@@ -80,16 +103,15 @@ struct VectorScalar {
     }
     return least >> 3 | (least & 7) << 16;
   }
-  /// `sums` are 2·kVectors registers, the disparities of a chunk's lower half in the even ones and of its
-  /// upper half in the odd ones. The lowest disparity whose sum equals `wanted`; there is one.
-  template <int kVectors>
+
+  /// `sums` are 2·kVectors registers, the halves of each vector of bytes after each other; kEvenOddOrder: the
+  /// first ones hold the lower disparities of the chunk, the second ones the upper, else every vector holds
+  /// a run of disparities. The lowest disparity whose sum equals `wanted`; there is one.
+  template <int kVectors, bool kEvenOddOrder>
   static std::uint32_t first_equal(const Reg* sums, Reg wanted) {
-    for (int half = 0; half < 2; ++half) {
-      for (int k = 0; k < 8 * kVectors; ++k) {
-        if (sums[2 * (k / 8) + half][k % 8] == wanted[0]) {
-          return static_cast<std::uint32_t>(half * 8 * kVectors + k);
-        }
-      }
+    static_assert(!kEvenOddOrder);
+    for (int k = 0; k < 16 * kVectors; ++k) {
+      if (sums[k / 8][k % 8] == wanted[0]) return static_cast<std::uint32_t>(k);
     }
     return 0;
   }

@@ -1,0 +1,103 @@
+// The vector layer for NEON, of 64-bit and 32-bit ARM. What each operation means stands in vector_scalar.h.
+#pragma once
+
+#include <arm_neon.h>
+
+#include <cstdint>
+
+namespace stereod::kernels {
+
+struct VectorNeon {
+  static constexpr int kBytes = 16;
+  static constexpr std::uint16_t kBias = 0;
+  static constexpr bool kEvenOdd = false;
+  using Reg = uint16x8_t;
+
+  static Reg load(const void* p) { return vreinterpretq_u16_u8(vld1q_u8(static_cast<const std::uint8_t*>(p))); }
+  static Reg load_aligned(const void* p) { return load(p); }
+  static void store_aligned(void* p, Reg a) { vst1q_u8(static_cast<std::uint8_t*>(p), bytes(a)); }
+  static Reg broadcast8(std::uint8_t value) { return vreinterpretq_u16_u8(vdupq_n_u8(value)); }
+  static Reg broadcast16(std::uint16_t value) { return vdupq_n_u16(value); }
+  static void pin(Reg&) {}
+
+  static void reverse16(const std::uint8_t* in, std::uint8_t* out) {
+    const uint8x16_t halves = vrev64q_u8(vld1q_u8(in));
+    vst1q_u8(out, vcombine_u8(vget_high_u8(halves), vget_low_u8(halves)));
+  }
+  static void interleave16(const std::uint8_t* a, const std::uint8_t* b, std::uint8_t* out) {
+    const uint8x16x2_t pair = {{vld1q_u8(a), vld1q_u8(b)}};
+    vst2q_u8(out, pair);
+  }
+
+  static Reg abs_diff_u8(Reg a, Reg b) { return vreinterpretq_u16_u8(vabdq_u8(bytes(a), bytes(b))); }
+  static Reg abs_diff_small(Reg a, Reg b) { return abs_diff_u8(a, b); }
+
+  // A multiplication that widens and accumulates does scaling and adding at once.
+  template <int kShift>
+  static void change_small(Reg added, Reg removed, Reg& first, Reg& second) {
+    const int8x16_t change = vreinterpretq_s8_u8(vsubq_u8(bytes(added), bytes(removed)));
+    if constexpr (kShift == 0) {
+      first = vreinterpretq_u16_s16(vaddw_s8(vreinterpretq_s16_u16(first), vget_low_s8(change)));
+      second = vreinterpretq_u16_s16(vaddw_s8(vreinterpretq_s16_u16(second), vget_high_s8(change)));
+    } else {
+      const int8x8_t factor = vdup_n_s8(1 << kShift);
+      first = vreinterpretq_u16_s16(vmlal_s8(vreinterpretq_s16_u16(first), vget_low_s8(change), factor));
+      second = vreinterpretq_u16_s16(vmlal_s8(vreinterpretq_s16_u16(second), vget_high_s8(change), factor));
+    }
+  }
+  static void change_any(Reg added, Reg removed, Reg& first, Reg& second) {
+    first = vaddq_u16(first, vsubl_u8(vget_low_u8(bytes(added)), vget_low_u8(bytes(removed))));
+    second = vaddq_u16(second, vsubl_u8(vget_high_u8(bytes(added)), vget_high_u8(bytes(removed))));
+  }
+
+  static Reg add16(Reg a, Reg b) { return vaddq_u16(a, b); }
+  static Reg sub16(Reg a, Reg b) { return vsubq_u16(a, b); }
+  static Reg min16(Reg a, Reg b) { return vminq_u16(a, b); }
+  static Reg masked(Reg a, Reg mask) { return vorrq_u16(a, mask); }
+
+  static void store_in_order(std::uint16_t* p, Reg first, Reg second) {
+    vst1q_u16(p, first);
+    vst1q_u16(p + 8, second);
+  }
+  static void load_in_order(const std::uint16_t* p, Reg& first, Reg& second) {
+    first = vld1q_u16(p);
+    second = vld1q_u16(p + 8);
+  }
+
+  static std::uint32_t least_lane(Reg a) {
+    const std::uint16_t least = least_of(a);
+    const uint8x8_t equal = vmovn_u16(vceqq_u16(a, vdupq_n_u16(least)));
+    const std::uint64_t mask = vget_lane_u64(vreinterpret_u64_u8(equal), 0);
+    return least | static_cast<std::uint32_t>(__builtin_ctzll(mask) / 8) << 16;
+  }
+
+  template <int kVectors, bool kEvenOddOrder>
+  static std::uint32_t first_equal(const Reg* sums, Reg wanted) {
+    static_assert(!kEvenOddOrder);
+    static constexpr std::uint16_t kLaneNumbers[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    Reg number = vld1q_u16(kLaneNumbers);
+    Reg found = vdupq_n_u16(0xFFFF);  // in each lane the lowest disparity that equals
+#pragma GCC unroll 8
+    for (int i = 0; i < 2 * kVectors; ++i) {
+      found = vminq_u16(found, vornq_u16(number, vceqq_u16(sums[i], wanted)));
+      number = vaddq_u16(number, vdupq_n_u16(8));
+    }
+    return least_of(found);
+  }
+
+ private:
+  static uint8x16_t bytes(Reg a) { return vreinterpretq_u8_u16(a); }
+
+  static std::uint16_t least_of(Reg a) {
+#if defined(__aarch64__)
+    return vminvq_u16(a);
+#else
+    uint16x4_t least = vmin_u16(vget_low_u16(a), vget_high_u16(a));
+    least = vpmin_u16(least, least);
+    least = vpmin_u16(least, least);
+    return vget_lane_u16(least, 0);
+#endif
+  }
+};
+
+}  // namespace stereod::kernels
