@@ -52,6 +52,8 @@ class Diagram {
     write(picture_, "part of a pixel", at(0.5, low_) + cv::Point(-50, 36));
   }
 
+  void draw_ideal(double y) { cv::line(picture_, at(0, y), at(1, y), kInk); }
+
   void draw(const std::vector<cv::Point2d>& values, const cv::Scalar& color) {
     for (std::size_t i = 1; i < values.size(); ++i) {
       cv::line(picture_, at(values[i - 1].x, values[i - 1].y), at(values[i].x, values[i].y), color, 2,
@@ -89,7 +91,9 @@ cv::Mat draw_subpixel(const std::vector<SubpixelPanel>& panels) {
     Diagram errors(picture, {0, top}, -0.12, 0.12);
     Diagram shares(picture, {kCellWidth, top}, 0, 0.16);
     errors.draw_axes("mean error, px (" + panel.title + ")", 0.04, "%+.2f");
-    shares.draw_axes("share of the answers (" + panel.title + "; unbiased: 0.0625)", 0.04, "%.2f");
+    shares.draw_axes("share of the answers (" + panel.title + ")", 0.04, "%.2f");
+    errors.draw_ideal(0);
+    shares.draw_ideal(1.0 / kSubpixelUnits);
     for (std::size_t i = 0; i < panel.curves.size(); ++i) {
       errors.draw(once_around(panel.curves[i].bias.mean_error), kColors.at(i));
       shares.draw(once_around(panel.curves[i].bias.share), kColors.at(i));

@@ -1,5 +1,6 @@
 // Parts of a pixel against a plane whose disparity is known: our interpolation, a parabola through the same
-// costs, and OpenCV's StereoBM. Prints the errors and, with a file name, draws them.
+// costs, and OpenCV's StereoBM. In the picture the thin line is what an unbiased one has. Prints the errors
+// and, with a file name, draws them.
 //   subpixel_sweep [PICTURE.png]
 #include <algorithm>
 #include <cmath>
@@ -106,7 +107,7 @@ DisparityImage match_parabola(const StereoPair& pair) {
 
 void print(const SubpixelCurve& curve) {
   const SubpixelBias& bias = curve.bias;
-  std::printf("%-34s largest mean error %.3f px, rms %.3f px, whole numbers %.1f %%, answered %.1f %%\n",
+  std::printf("%-18s largest mean error %.3f px, rms %.3f px, whole numbers %.1f %%, answered %.1f %%\n",
               curve.name.c_str(), bias.largest_mean_error(), bias.rms_error, 100 * bias.share[0],
               100 * bias.answered);
   std::printf("  mean error (1/1000 px) by 1/16 px:");
@@ -126,7 +127,7 @@ void run(const std::string& picture) {
     panel.title = noise > 0 ? "noise of 4 grey levels" : "no noise";
     std::printf("%s\n", panel.title.c_str());
     for (const auto& [name, match] : {std::pair<const char*, SubpixelMatch>{"stereod", match_ours},
-                                      {"parabola, same costs", match_parabola},
+                                      {"parabola", match_parabola},
                                       {"OpenCV StereoBM", match_opencv}}) {
       panel.curves.push_back({name, sweep_plane(sweep, match)});
       print(panel.curves.back());

@@ -41,7 +41,7 @@ die() {
 [[ ${1:-} != --quick ]] || cases=("${cases[0]}")
 
 for tool in valgrind qemu-x86_64 llvm-mca-14 llvm-objdump-14 cmake; do
-  command -v "$tool" >/dev/null || die "no $tool here: toolchain/install-deps.sh --tests --emulation"
+  command -v "$tool" >/dev/null || die "no $tool here: toolchain/install-deps.sh --emulation"
 done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
