@@ -137,7 +137,7 @@ void BlockMatcher::judge_row(int y, const RowWinners& winners) noexcept {
   std::fill(out + winners.end, out + image_.width, kInvalidDisparity);
   search_->write(winners, out);
   if (texture_check_) texture_check_->reject(winners, options_, out);
-  if (options_.uniqueness_ratio > 0) reject_ambiguous(winners, options_.uniqueness_ratio, out);
+  if (options_.uniqueness_ratio > 0) reject_ambiguous(winners, out);
   if (left_right_check_) left_right_check_->reject(winners, options_, out);
 }
 

@@ -15,8 +15,8 @@ namespace stereod {
 /// px (docs/matcher.md, section 3).
 void write_disparities(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept;
 
-/// Invalidates pixels with a rival whose cost is within `uniqueness_ratio` percent.
-void reject_ambiguous(const RowWinners& winners, int uniqueness_ratio, std::int16_t* out) noexcept;
+/// Invalidates pixels with a rival (RowWinners::ambiguous).
+void reject_ambiguous(const RowWinners& winners, std::int16_t* out) noexcept;
 
 /// Invalidates pixels whose match in the right image is claimed by a better one of other disparity.
 class LeftRightCheck {
@@ -26,6 +26,9 @@ class LeftRightCheck {
   std::size_t scratch_bytes() const noexcept;
 
  private:
+  template <typename Claim>
+  void reject_by(Claim* claims, const RowWinners& winners, const MatcherOptions& options, std::int16_t* out);
+
   AlignedBuffer<std::uint64_t> claims_;  // by column of the right image
 };
 
@@ -40,7 +43,7 @@ class TextureCheck {
   std::size_t scratch_bytes() const noexcept;
 
  private:
-  AlignedBuffer<std::int32_t> column_sums_;
+  AlignedBuffer<std::uint16_t> column_sums_;  // at most 31 rows of 63
 };
 
 }  // namespace stereod

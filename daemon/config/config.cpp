@@ -86,6 +86,7 @@ void read_matcher(YamlSection section, MatcherOptions& options) {
                                                           "naive, sliding and simd", parse_implementation);
   options.isa =
       section.choice<Isa>("isa", options.isa, "auto, scalar, ssse3, sse41, avx2 and neon", parse_isa);
+  options.cache = section.choice<CacheUse>("cache", options.cache, "auto, large and small", parse_cache_use);
   section.finish();
   if (const auto problem = problem_with(options)) {  // what is left are combinations of keys
     section.fail(problem->substr(0, problem->find(' ')), *problem);

@@ -67,6 +67,7 @@ matcher:
   speckle_max_diff: 2
   implementation: sliding
   isa: scalar
+  cache: small
 workers: 3
 lcm: {url: "memq://", prefix: FRONT, rows_per_message: 8, spread: 0.5}
 log: {level: debug}
@@ -93,6 +94,7 @@ log: {level: debug}
   EXPECT_EQ(config.matcher.speckle_max_diff, 2);
   EXPECT_EQ(config.matcher.implementation, Implementation::kSliding);
   EXPECT_EQ(config.matcher.isa, Isa::kScalar);
+  EXPECT_EQ(config.matcher.cache, CacheUse::kSmall);
   EXPECT_EQ(config.worker_count(), 3);
   EXPECT_EQ(config.lcm.url, "memq://");
   EXPECT_EQ(config.lcm.prefix, "FRONT");
@@ -195,7 +197,7 @@ TEST_F(ConfigFile, TheShippedFileSaysTheDefaults) {
     }
     uncommented += line + "\n";
   }
-  EXPECT_EQ(matcher_keys, 13);
+  EXPECT_EQ(matcher_keys, 14);
   const Config defaults;
   const Config shipped = read(uncommented);
   EXPECT_EQ(shipped.cameras.fps, defaults.cameras.fps);

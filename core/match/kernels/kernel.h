@@ -16,11 +16,13 @@ inline constexpr int kRowMargin = 64;
 
 /// How the sums are calculated. A group is 8 disparities.
 enum class Arithmetic {
-  kPacked,  ///< |L−R| ≤ 126; 16-bit sums are cost·8 + number of the group in the chunk: the minimum tells both
-  kPackedHalves,  ///< the same with cost·4 + number of the group in its half of the chunk, a minimum for each half
-  kNarrow,        ///< |L−R| ≤ 126; 16-bit sums are costs, the winner is found by comparing with the minimum
-  kRaw,           ///< |L−R| ≤ 255; likewise
-  kWide,          ///< |L−R| ≤ 255; 32-bit sums, for windows whose cost does not fit in 16 bits
+  kPacked,  ///< |L−R| ≤ 126; 16-bit sums are cost·8 + number of the group in the chunk: the minimum tells
+            ///< both
+  kPackedHalves,  ///< the same with cost·4 + number of the group in its half of the chunk, a minimum for each
+                  ///< half
+  kNarrow,  ///< |L−R| ≤ 126; 16-bit sums are costs, the winner is found by comparing with the minimum
+  kRaw,     ///< |L−R| ≤ 255; likewise
+  kWide,    ///< |L−R| ≤ 255; 32-bit sums, for windows whose cost does not fit in 16 bits
 };
 
 /// What is fixed for a band. Column c of a row is image column min_disparity + c; in it the disparities
@@ -35,7 +37,7 @@ struct Shape {
   int chunks;
   bool recompute;   ///< differences that leave the window are calculated again, not kept (never with kWide)
   bool neighbours;  ///< Winners::before and after are wanted
-  bool rival;       ///< Winners::rival is wanted
+  int uniqueness_ratio;  ///< %; 0: Winners::ambiguous is not wanted
   int columns() const { return width - min_disparity; }
   int padded_disparities() const { return chunk * chunks; }
   /// Bytes of a right row as Kernel::prepare_right_row writes it.
@@ -55,7 +57,7 @@ struct Winners {
   std::uint32_t* cost;
   std::uint32_t* before;
   std::uint32_t* after;
-  std::uint32_t* rival;
+  std::uint8_t* ambiguous;
 };
 
 /// A row of both pictures as the kernels take it.
@@ -68,9 +70,10 @@ struct InputRow {
 struct RowChange {
   InputRow added;
   InputRow removed;  ///< only with Shape::recompute: the row that leaves, zeros while the window fills
-  /// Only without: |L−R| of the row that leaves, zeros while the window fills; becomes that of the row added.
-  /// 64-byte aligned, [chunk][column of the strip][k].
+  /// Only without: where |L−R| of the row added goes, and those of the row that leaves, zeros while the
+  /// window fills. 64-byte aligned, [chunk][column of the strip][k].
   std::uint8_t* differences;
+  const std::uint8_t* removed_differences;
 };
 
 /// Memory of one strip. 64-byte aligned.

@@ -1,9 +1,10 @@
-// The one source of the block-matching kernels. Each kernel_<isa>.cpp compiles it for its instruction set, with
-// a vector layer V: V::Reg, V::kBytes and the operations of vector_scalar.h.
+// The one source of the block-matching kernels. Each kernel_<isa>.cpp compiles it for its instruction set,
+// with a vector layer V: V::Reg, V::kBytes and the operations of vector_scalar.h.
 //
 // This header and those it includes are compiled with instructions that the running CPU may lack. Nothing in
-// them may come from a header whose inline functions other files use too (the linker keeps one copy of those):
-// no std:: functions, and every function that is not a template of V says so with a Tag or is constexpr.
+// them may come from a header whose inline functions other files use too (the linker keeps one copy of
+// those): no std:: functions, and every function that is not a template of V says so with a Tag or is
+// constexpr.
 #pragma once
 
 #include "core/match/interpolation.h"
@@ -91,8 +92,12 @@ class Dispatch {
 /// The table entry of an instruction set.
 template <typename V>
 constexpr Kernel make_kernel() {
-  return {V::kBytes,           xsobel_row<V>,           RightRow<V>::prepare,
-          Dispatch<V>::add_row, Dispatch<V>::search_row, interpolate<float, V>};
+  return {V::kBytes,
+          Xsobel<V>::row,
+          RightRow<V>::prepare,
+          Dispatch<V>::add_row,
+          Dispatch<V>::search_row,
+          interpolate<float, V>};
 }
 
 }  // namespace stereod::kernels

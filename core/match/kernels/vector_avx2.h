@@ -77,7 +77,48 @@ struct VectorAvx2 : BytesX86<2> {
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
   }
 
+  template <int kVectors>
+  static std::uint64_t at_most(const std::uint16_t* sums, Reg limit) {
+    std::uint64_t bits = 0;
+#pragma GCC unroll 8
+    for (int pair = 0; pair < kVectors; ++pair) {  // 32 numbers, as 32 bits
+      const Reg first = load_aligned(sums + 32 * pair);
+      const Reg second = load_aligned(sums + 32 * pair + 16);
+      const Reg bytes = _mm256_packs_epi16(_mm256_cmpeq_epi16(min16(first, limit), first),
+                                           _mm256_cmpeq_epi16(min16(second, limit), second));
+      const Reg ordered = _mm256_permute4x64_epi64(bytes, _MM_SHUFFLE(3, 1, 2, 0));
+      bits |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_epi8(ordered))) << (32 * pair);
+    }
+    return bits;
+  }
+
+  // above + 2·row by one pmaddubsw, and below, of the pixels to the right less those to the left.
+  static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,
+                     std::uint8_t* out) {
+    const Reg above_right = load(above + 1), row_right = load(row + 1), below_right = load(below + 1);
+    const Reg above_left = load(above - 1), row_left = load(row - 1), below_left = load(below - 1);
+    const Reg lower =
+        gradient(_mm256_unpacklo_epi8(above_right, row_right), _mm256_unpacklo_epi8(above_left, row_left),
+                 _mm256_unpacklo_epi8(below_right, below_left), cap);
+    const Reg upper =
+        gradient(_mm256_unpackhi_epi8(above_right, row_right), _mm256_unpackhi_epi8(above_left, row_left),
+                 _mm256_unpackhi_epi8(below_right, below_left), cap);
+    const Reg most = broadcast8(static_cast<std::uint8_t>(2 * cap));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
+                        _mm256_min_epu8(_mm256_packus_epi16(lower, upper), most));
+  }
+
  private:
+  // From pairs of bytes, raised by the cap; packing will clip what is below 0.
+  static Reg gradient(Reg right, Reg left, Reg below, int cap) {
+    const Reg one_two = _mm256_set1_epi16(0x0201);
+    const Reg one_less_one = _mm256_set1_epi16(static_cast<short>(0xFF01));
+    const Reg upper_rows =
+        _mm256_sub_epi16(_mm256_maddubs_epi16(right, one_two), _mm256_maddubs_epi16(left, one_two));
+    return _mm256_add_epi16(_mm256_add_epi16(upper_rows, _mm256_maddubs_epi16(below, one_less_one)),
+                            broadcast16(static_cast<std::uint16_t>(cap)));
+  }
+
   // Which register holds the `position`-th group of 16 disparities of the chunk.
   template <int kVectors, bool kEvenOddOrder>
   static constexpr int register_of(int position) {

@@ -13,7 +13,9 @@ struct VectorNeon {
   static constexpr bool kEvenOdd = false;
   using Reg = uint16x8_t;
 
-  static Reg load(const void* p) { return vreinterpretq_u16_u8(vld1q_u8(static_cast<const std::uint8_t*>(p))); }
+  static Reg load(const void* p) {
+    return vreinterpretq_u16_u8(vld1q_u8(static_cast<const std::uint8_t*>(p)));
+  }
   static Reg load_aligned(const void* p) { return load(p); }
   static void store_aligned(void* p, Reg a) { vst1q_u8(static_cast<std::uint8_t*>(p), bytes(a)); }
   static Reg broadcast8(std::uint8_t value) { return vreinterpretq_u16_u8(vdupq_n_u8(value)); }
@@ -85,7 +87,42 @@ struct VectorNeon {
     return least_of(found);
   }
 
+  template <int kVectors>
+  static std::uint64_t at_most(const std::uint16_t* sums, Reg limit) {
+    static constexpr std::uint8_t kBits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
+    const uint8x8_t weights = vld1_u8(kBits);
+    std::uint64_t bits = 0;
+#pragma GCC unroll 8
+    for (int i = 0; i < 2 * kVectors; ++i) {  // 8 numbers, as 8 bits
+      uint8x8_t set = vand_u8(vmovn_u16(vcleq_u16(load(sums + 8 * i), limit)), weights);
+      set = vpadd_u8(set, set);
+      set = vpadd_u8(set, set);
+      set = vpadd_u8(set, set);
+      bits |= static_cast<std::uint64_t>(vget_lane_u8(set, 0)) << (8 * i);
+    }
+    return bits;
+  }
+
+  static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,
+                     std::uint8_t* out) {
+    const int16x8_t lower = gradient(above, row, below, cap);
+    const int16x8_t upper = gradient(above + 8, row + 8, below + 8, cap);
+    const uint8x16_t positive = vcombine_u8(vqmovun_s16(lower), vqmovun_s16(upper));
+    vst1q_u8(out, vminq_u8(positive, vdupq_n_u8(static_cast<std::uint8_t>(2 * cap))));
+  }
+
  private:
+  // Of eight pixels, raised by the cap.
+  static int16x8_t gradient(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below,
+                            int cap) {
+    const auto difference = [](const std::uint8_t* p) {
+      return vreinterpretq_s16_u16(vsubl_u8(vld1_u8(p + 1), vld1_u8(p - 1)));
+    };
+    const int16x8_t outer = vaddq_s16(difference(above), difference(below));
+    return vaddq_s16(vaddq_s16(outer, vshlq_n_s16(difference(row), 1)),
+                     vdupq_n_s16(static_cast<std::int16_t>(cap)));
+  }
+
   static uint8x16_t bytes(Reg a) { return vreinterpretq_u8_u16(a); }
 
   static std::uint16_t least_of(Reg a) {
