@@ -42,10 +42,8 @@ Arithmetic fitting_arithmetic(const MatcherOptions& options) {
   if (largest >= kMasked) return Arithmetic::kWide;
   if (!small_differences) return Arithmetic::kRaw;
   if (largest * 8 + 7 < kMasked) return Arithmetic::kPacked;
-  return largest * 4 + 3 < kMasked ? Arithmetic::kPackedHalves : Arithmetic::kNarrow;
+  return largest * 4 + 3 < kMasked ? Arithmetic::kPackedHalves : Arithmetic::kRaw;
 }
-
-int rounded_up(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
 
 Shape shape_for(const MatcherOptions& options, int width, const Kernel& kernel) {
   Shape shape{};
@@ -56,11 +54,12 @@ Shape shape_for(const MatcherOptions& options, int width, const Kernel& kernel) 
   shape.window = options.window;
   if (shape.arithmetic == Arithmetic::kWide) {
     shape.chunks = 1;
+    shape.chunk = options.disparities;
   } else {
     shape.chunks = (options.disparities + kernels::kMaxChunk - 1) / kernels::kMaxChunk;
+    shape.chunk = kernel.chunk_for((options.disparities + shape.chunks - 1) / shape.chunks);
     shape.recompute = resolve_cache_use(options.cache) == CacheUse::kSmall;
   }
-  shape.chunk = rounded_up((options.disparities + shape.chunks - 1) / shape.chunks, kernel.granularity);
   shape.neighbours = options.subpixel;
   shape.uniqueness_ratio = options.uniqueness_ratio;
   return shape;
@@ -95,7 +94,9 @@ class SimdSearch final : public RowSearch {
         left_rows_(size(shape_.recompute ? shape_.window + kBatch : 1)),
         zeros_(shape_.recompute ? size(shape_.right_row_bytes()) : difference_row_bytes()),
         differences_(shape_.recompute ? 0 : size(shape_.window + 1) * difference_row_bytes()),
+        lane_masks_(size(shape_.padded_disparities())),
         block_sums_(size(kernels::kBlockColumns) * size(shape_.padded_disparities()) + 2 * kBlockMargin) {
+    kernel_.fill_lane_masks(shape_, lane_masks_.data());
     for (const Strip& strip : strips_) {
       column_sums_.emplace_back(size(shape_.window + strip.columns()) * size(shape_.padded_disparities()));
     }
@@ -167,7 +168,8 @@ class SimdSearch final : public RowSearch {
       change.differences = differences(y);
       change.removed_differences = leaving >= 0 ? differences(leaving) : zeros_.data();
     }
-    const kernels::Scratch scratch{column_sums_[strip].data(), block_sums_.data() + kBlockMargin};
+    const kernels::Scratch scratch{column_sums_[strip].data(), block_sums_.data() + kBlockMargin,
+                                   lane_masks_.data()};
     if (winners == nullptr) return kernel_.add_row(shape_, strips_[strip], change, scratch);
     const auto at = size(winners->first);
     kernel_.search_row(shape_, strips_[strip], change, scratch,
@@ -184,6 +186,7 @@ class SimdSearch final : public RowSearch {
   AlignedBuffer<std::uint8_t> zeros_;                      // what leaves the window while it fills
   AlignedBuffer<std::uint8_t> differences_;                // of the last `window` rows, in turn
   std::vector<AlignedBuffer<std::uint16_t>> column_sums_;  // of each strip
+  AlignedBuffer<std::uint8_t> lane_masks_;
   AlignedBuffer<std::uint16_t> block_sums_;
   int next_row_ = 0;
 };

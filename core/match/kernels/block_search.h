@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/match/kernels/block_winners.h"
 #include "core/match/kernels/column_sums.h"
 #include "core/match/kernels/kernel.h"
 
@@ -25,9 +26,7 @@ struct Masks {
   }();
 
   Masks(const Shape& shape, int chunk)
-      : before_first(shape.window - 2 + chunk * shape.chunk),
-        most(shape.disparities - chunk * shape.chunk < shape.chunk ? shape.disparities - chunk * shape.chunk
-                                                                   : shape.chunk) {}
+      : before_first(shape.window - 2 + chunk * shape.chunk), most(shape.chunk) {}
 
   inline const std::uint16_t* at(int column) const {
     int searched = column - before_first;
@@ -37,7 +36,7 @@ struct Masks {
   }
 
   int before_first;  // the column before the first one in which a disparity of the chunk can be searched
-  int most;          // disparities of the chunk that can be searched anywhere
+  int most;          // disparities of the chunk
 };
 
 template <typename V, Arithmetic kA, bool kRecompute, int kVectors>
@@ -52,39 +51,39 @@ class BlockSearch {
   static void row(const Shape& shape, const Strip& strip, const RowChange& change, const Scratch& scratch,
                   const Winners& out) {
     Running running[kMaxChunks];
-    for (int chunk = 0; chunk < shape.chunks; ++chunk) start(running[chunk]);
-    const bool keep_sums = shape.neighbours || shape.uniqueness_ratio > 0;
+    for (int chunk = 0; chunk < shape.chunks; ++chunk) start(shape, chunk, running[chunk]);
     for (int first = strip.first; first < strip.end; first += kBlockColumns) {
       const int end = first + kBlockColumns < strip.end ? first + kBlockColumns : strip.end;
       std::uint32_t best[kBlockColumns];  // cost << 16 | k: the least is the winner, the lowest k on a tie
       for (int chunk = 0; chunk < shape.chunks; ++chunk) {
         const Block block{first, end, first};
-        // All disparities of the chunk can be searched in every column of the block, or some lanes are
-        // masked.
-        const int chunk_end = (chunk + 1) * kChunk;
-        const bool masked = chunk_end > shape.disparities || first - shape.window + 2 < chunk_end;
         std::uint32_t found[kHalves][kBlockColumns];
-        if (keep_sums) {
-          masked ? sweep<true, true>(shape, strip, change, scratch, block, chunk, running[chunk], found)
-                 : sweep<false, true>(shape, strip, change, scratch, block, chunk, running[chunk], found);
-        } else {
-          masked ? sweep<true, false>(shape, strip, change, scratch, block, chunk, running[chunk], found)
-                 : sweep<false, false>(shape, strip, change, scratch, block, chunk, running[chunk], found);
-        }
+        const Sweep sweep_block = sweep_for(shape, block, chunk);
+        sweep_block(shape, strip, change, scratch, block, chunk, running[chunk], found);
         for (int half = 0; half < kHalves; ++half) {
           const int base = chunk * kChunk + half * (kChunk / kHalves);
-          merge(found[half], end - first, static_cast<std::uint32_t>(base), best);
+          BlockWinners<V, kA>::merge(found[half], end - first, static_cast<std::uint32_t>(base), best);
         }
       }
-      finish_block(shape, strip, scratch, first, end, best, out);
+      BlockWinners<V, kA>::write(shape, strip, scratch, first, end, best, out);
     }
   }
 
  private:
-  // The columns [first, end), of a block that begins with column `base`.
-  struct Block {
-    int first, end, base;
-  };
+  struct Running;
+  using Sweep = void (*)(const Shape&, const Strip&, const RowChange&, const Scratch&, const Block&,
+                         int chunk, Running&, std::uint32_t (*found)[kBlockColumns]);
+
+  // At the left border less disparities can be searched than elsewhere.
+  static Sweep sweep_for(const Shape& shape, const Block& block, int chunk) {
+    const bool keep = shape.neighbours || shape.uniqueness_ratio > 0;
+    const int chunk_end = (chunk + 1) * kChunk;
+    const bool padded = chunk_end > shape.disparities;
+    const int last = padded ? shape.disparities : chunk_end;
+    if (block.first - shape.window + 2 < last) return sweep<true, true, true>;
+    if (padded) return keep ? sweep<false, true, true> : sweep<false, true, false>;
+    return keep ? sweep<false, false, true> : sweep<false, false, false>;
+  }
 
   // The window sums of a chunk on their way along the row, in memory between two blocks, register by
   // register.
@@ -99,24 +98,34 @@ class BlockSearch {
   }
 
   // In packed arithmetic the low bits of every sum hold the number of its group of 8 disparities.
-  static void start(Running& running) {
+  // Disparities that only fill up the chunk begin, and stay, with the largest sum.
+  static void start(const Shape& shape, int chunk, Running& running) {
+    Running ordered;
     for (int k = 0; k < kChunk; ++k) {
-      int group = 0;
-      if (kA == Arithmetic::kPacked) group = k / 8;
-      if (kA == Arithmetic::kPackedHalves) group = k % (kChunk / 2) / 8;
-      running.sums[register_of(k / kLanes) * kLanes + k % kLanes] =
-          static_cast<std::uint16_t>(group + V::kBias);
+      int sum = 0;
+      if (kA == Arithmetic::kPacked) sum = k / 8;
+      if (kA == Arithmetic::kPackedHalves) sum = k % (kChunk / 2) / 8;
+      if (chunk * kChunk + k >= shape.disparities) sum = 0xFFFF;
+      ordered.sums[k] = static_cast<std::uint16_t>(sum + V::kBias);
+    }
+    for (int c = 0; c < kVectors; ++c) {
+      Reg first, second;
+      load_lanes(ordered.sums, c, first, second);
+      V::store_aligned(running.sums + 2 * c * kLanes, first);
+      V::store_aligned(running.sums + (2 * c + 1) * kLanes, second);
     }
   }
 
   // Adds the row to the column sums of the block, slides the window along them and writes for each column the
-  // least sum and where it is. kMasked: disparities that cannot be searched are kept from winning. kKeep: all
-  // sums go to scratch.block_sums.
-  template <bool kMasked, bool kKeep>
+  // least sum and where it is. kRamp: which disparities can be searched differs from column to column.
+  // kPadded: there are disparities that only fill up the chunk. kKeep: all sums go to scratch.block_sums.
+  template <bool kRamp, bool kPadded, bool kKeep>
   static void sweep(const Shape& shape, const Strip& strip, const RowChange& row, const Scratch& scratch,
                     const Block& block, int chunk, Running& running, std::uint32_t (*found)[kBlockColumns]) {
     const std::ptrdiff_t back = static_cast<std::ptrdiff_t>(shape.window) * kChunk;
     const Masks<V> masks(shape, chunk);
+    const std::uint16_t* mask = nullptr;
+    const std::uint8_t* lane_mask = scratch.lane_masks + chunk * kChunk;
     Place<V, kA, kRecompute> place(shape, strip, row, chunk, block.first);
     std::uint16_t* sums = sums_of(shape, strip, scratch, chunk, block.first);
     std::uint16_t* kept = scratch.block_sums + chunk * kChunk;
@@ -128,14 +137,14 @@ class BlockSearch {
     for (int column = block.first; column < block.end; ++column) {
       const Reg left = V::broadcast8(*place.left);
       const Reg removed_left = kRecompute ? V::broadcast8(*place.removed_left) : left;
-      const std::uint16_t* mask = nullptr;
-      if constexpr (kMasked) mask = masks.at(column);
+      if constexpr (kRamp) mask = masks.at(column);
       Reg candidates[2 * kVectors];
 #pragma GCC unroll 4
       for (int c = 0; c < kVectors; ++c) {
         Reg first, second;
         std::uint16_t* const in = sums + c * V::kBytes;
-        ColumnUpdate<V, kA, kRecompute>::apply(place, c * V::kBytes, left, removed_left, in, first, second);
+        ColumnUpdate<V, kA, kRecompute, kPadded>::apply(place, c * V::kBytes, left, removed_left, lane_mask,
+                                                        in, first, second);
         Reg& lower = window[2 * c];
         Reg& upper = window[2 * c + 1];
         lower = V::add16(lower, V::sub16(first, V::load_aligned(in - back)));
@@ -144,7 +153,7 @@ class BlockSearch {
         V::pin(upper);
         candidates[2 * c] = lower;
         candidates[2 * c + 1] = upper;
-        if constexpr (kMasked) mask_lanes(mask, c, candidates[2 * c], candidates[2 * c + 1]);
+        if constexpr (kRamp) mask_lanes(mask, c, candidates[2 * c], candidates[2 * c + 1]);
         if constexpr (kKeep) keep(kept, c, candidates[2 * c], candidates[2 * c + 1]);
       }
       find_least(candidates, column - block.first, found);
@@ -156,14 +165,19 @@ class BlockSearch {
     for (int i = 0; i < 2 * kVectors; ++i) V::store_aligned(running.sums + i * kLanes, window[i]);
   }
 
+  // From numbers in the order of disparities to the registers of byte vector c.
+  static inline void load_lanes(const std::uint16_t* ordered, int c, Reg& first, Reg& second) {
+    if constexpr (kEvenOdd) {
+      first = V::load(ordered + c * kLanes);
+      second = V::load(ordered + kChunk / 2 + c * kLanes);
+    } else {
+      V::load_in_order(ordered + c * V::kBytes, first, second);
+    }
+  }
+
   static inline void mask_lanes(const std::uint16_t* mask, int c, Reg& first, Reg& second) {
     Reg first_mask, second_mask;
-    if constexpr (kEvenOdd) {
-      first_mask = V::load(mask + c * kLanes);
-      second_mask = V::load(mask + kChunk / 2 + c * kLanes);
-    } else {
-      V::load_in_order(mask + c * V::kBytes, first_mask, second_mask);
-    }
+    load_lanes(mask, c, first_mask, second_mask);
     first = V::masked(first, first_mask);
     second = V::masked(second, second_mask);
   }
@@ -200,92 +214,6 @@ class BlockSearch {
       }
       found[0][at] = minimum;
     }
-  }
-
-  // Brings found[] of disparities from `base` on to cost << 16 | k and keeps the lesser of it and best[].
-  static inline void merge(const std::uint32_t* found, int count, std::uint32_t base, std::uint32_t* best) {
-    constexpr int kShift = shift_of(kA);
-    constexpr std::uint32_t kGroups = (1U << kShift) - 1;
-    for (int i = 0; i < count; ++i) {
-      const std::uint32_t value = found[i];
-      const std::uint32_t cost = (value & 0xFFFF) >> kShift;
-      const std::uint32_t entry = cost << 16 | (((value & kGroups) << 3) + (value >> 16) + base);
-      best[i] = base > 0 && best[i] <= entry ? best[i] : entry;
-    }
-  }
-
-  // Writes the winners of the block's columns whose window is complete.
-  static void finish_block(const Shape& shape, const Strip& strip, const Scratch& scratch, int first, int end,
-                           const std::uint32_t* best, const Winners& out) {
-    const int skip = shape.window - 1;  // columns before the first complete window
-    const int begin = first > strip.first + skip ? first : strip.first + skip;
-    for (int column = begin; column < end; ++column) {
-      out.index[column - skip] = static_cast<std::uint16_t>(best[column - first]);
-      out.cost[column - skip] = best[column - first] >> 16;
-    }
-    const Block block{begin, end, first};
-    if (shape.neighbours) write_neighbours(shape, scratch, block, best, out);
-    if (shape.uniqueness_ratio > 0) write_ambiguous(shape, scratch, block, best, out);
-  }
-
-  // The kept sums of the winner of column `column`.
-  static inline const std::uint16_t* winner_sums(const Shape& shape, const Scratch& scratch,
-                                                 const Block& block, const std::uint32_t* best, int column) {
-    const int at = column - block.base;
-    return scratch.block_sums + at * shape.padded_disparities() + (best[at] & 0xFFFF);
-  }
-
-  static void write_neighbours(const Shape& shape, const Scratch& scratch, const Block& block,
-                               const std::uint32_t* best, const Winners& out) {
-    const int skip = shape.window - 1;
-    // First all three costs in one load, then apart in vectors.
-    std::uint64_t three[kBlockColumns];
-    for (int column = block.first; column < block.end; ++column) {
-      __builtin_memcpy(&three[column - block.first], winner_sums(shape, scratch, block, best, column) - 1,
-                       sizeof(three[0]));
-    }
-    std::uint32_t* before = out.before + block.first - skip;
-    std::uint32_t* after = out.after + block.first - skip;
-    for (int i = 0; i < block.end - block.first; ++i) {
-      before[i] = cost_of(static_cast<std::uint32_t>(three[i]) & 0xFFFF);
-      after[i] = cost_of(static_cast<std::uint32_t>(three[i] >> 32) & 0xFFFF);
-    }
-  }
-
-  static inline std::uint32_t cost_of(std::uint32_t sum) { return (sum ^ V::kBias) >> shift_of(kA); }
-
-  // Compares all kept sums of a column with the limit and looks whether any but the winner's and its
-  // neighbours' is below.
-  static void write_ambiguous(const Shape& shape, const Scratch& scratch, const Block& block,
-                              const std::uint32_t* best, const Winners& out) {
-    constexpr std::uint32_t kGroups = (1U << shift_of(kA)) - 1;
-    const auto ratio = static_cast<std::uint32_t>(shape.uniqueness_ratio);
-    std::uint32_t limits[kBlockColumns];  // as sums with the highest number of a group, without bias
-    for (int i = 0; i < block.end - block.base; ++i) {
-      const std::uint32_t cost = best[i] >> 16;
-      const std::uint32_t limit = (cost + cost * ratio / 100) << shift_of(kA) | kGroups;
-      limits[i] = limit < 0xFFFE ? limit : 0xFFFE;  // 0xFFFF is what cannot be searched
-    }
-    const std::uint16_t* sums = scratch.block_sums;
-    const int chunks = shape.chunks;
-    std::uint8_t* out_ambiguous = out.ambiguous + block.base - (shape.window - 1);
-    for (int i = 0; i < block.end - block.base; ++i) {
-      const Reg limit = V::broadcast16(static_cast<std::uint16_t>(limits[i] ^ V::kBias));
-      const int winner = static_cast<int>(best[i] & 0xFFFF);
-      std::uint64_t rivals = 0;
-      for (int chunk = 0; chunk < chunks; ++chunk, sums += kChunk) {
-        rivals |= V::template at_most<kVectors>(sums, limit) & ~beside(winner - chunk * kChunk);
-      }
-      if (i >= block.first - block.base) out_ambiguous[i] = rivals != 0 ? 1 : 0;
-    }
-  }
-
-  // The bits k − 1, k and k + 1, as far as there are such.
-  static inline std::uint64_t beside(int k) {
-    constexpr std::uint64_t kOne = 1;
-    if (k >= 0 && k < 64) return kOne << k | kOne << k << 1 | kOne << k >> 1;
-    if (k == -1) return kOne;
-    return k == 64 ? kOne << 63 : 0;
   }
 };
 

@@ -70,22 +70,26 @@ struct Place {
 };
 
 /// The column sums of V::kBytes disparities, and how a row changes them.
-template <typename V, Arithmetic kA, bool kRecompute>
+///
+/// Disparities that only fill up a chunk are compared like the others; with kPadded their differences are
+/// taken for 0, so that their sums stay what they begin with and never win.
+template <typename V, Arithmetic kA, bool kRecompute, bool kPadded>
 struct ColumnUpdate {
   using Reg = typename V::Reg;
 
-  static inline Reg difference(Reg left, Reg right) {
-    return kA == Arithmetic::kRaw ? V::abs_diff_u8(left, right) : V::abs_diff_small(left, right);
+  static inline Reg difference(Reg left, Reg right, const std::uint8_t* lane_mask) {
+    const Reg all = kA == Arithmetic::kRaw ? V::abs_diff_u8(left, right) : V::abs_diff_small(left, right);
+    return kPadded ? V::bit_and(all, V::load_aligned(lane_mask)) : all;
   }
 
   /// Reads the sums at `sums`, of the disparities from k on, changes them, writes them back and leaves them
   /// in first and second. `left` and `removed_left` are the place's pixels.
   static inline void apply(const Place<V, kA, kRecompute>& place, int k, Reg left, Reg removed_left,
-                           std::uint16_t* sums, Reg& first, Reg& second) {
-    const Reg added = difference(left, V::load(place.right + k));
+                           const std::uint8_t* lane_mask, std::uint16_t* sums, Reg& first, Reg& second) {
+    const Reg added = difference(left, V::load(place.right + k), lane_mask + k);
     Reg removed;
     if constexpr (kRecompute) {
-      removed = difference(removed_left, V::load(place.right + place.to_removed_right + k));
+      removed = difference(removed_left, V::load(place.right + place.to_removed_right + k), lane_mask + k);
     } else {
       V::store_aligned(place.differences + k, added);
       removed = V::load_aligned(place.differences + place.to_removed + k);
@@ -109,12 +113,14 @@ void add_chunks(const Shape& shape, const Strip& strip, const RowChange& row, co
   for (int chunk = 0; chunk < shape.chunks; ++chunk) {
     std::uint16_t* sums = sums_of(shape, strip, scratch, chunk, strip.first);
     Place<V, kA, kRecompute> place(shape, strip, row, chunk, strip.first);
+    const std::uint8_t* lane_mask = scratch.lane_masks + chunk * shape.chunk;
     for (int column = strip.first; column < strip.end; ++column, sums += shape.chunk) {
       const Reg left = V::broadcast8(*place.left);
       const Reg removed_left = kRecompute ? V::broadcast8(*place.removed_left) : left;
       for (int k = 0; k < shape.chunk; k += V::kBytes) {
         Reg first, second;
-        ColumnUpdate<V, kA, kRecompute>::apply(place, k, left, removed_left, sums + k, first, second);
+        ColumnUpdate<V, kA, kRecompute, true>::apply(place, k, left, removed_left, lane_mask, sums + k, first,
+                                                     second);
       }
       place.next_column(shape.chunk);
     }

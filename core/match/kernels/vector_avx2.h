@@ -40,6 +40,7 @@ struct VectorAvx2 : BytesX86<2> {
     second = _mm256_add_epi16(second, _mm256_maddubs_epi16(_mm256_unpackhi_epi8(added, removed), factors));
   }
 
+  static Reg bit_and(Reg a, Reg b) { return _mm256_and_si256(a, b); }
   static Reg add16(Reg a, Reg b) { return _mm256_add_epi16(a, b); }
   static Reg sub16(Reg a, Reg b) { return _mm256_sub_epi16(a, b); }
   static Reg min16(Reg a, Reg b) { return _mm256_min_epu16(a, b); }
@@ -77,19 +78,13 @@ struct VectorAvx2 : BytesX86<2> {
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
   }
 
-  template <int kVectors>
-  static std::uint64_t at_most(const std::uint16_t* sums, Reg limit) {
-    std::uint64_t bits = 0;
-#pragma GCC unroll 8
-    for (int pair = 0; pair < kVectors; ++pair) {  // 32 numbers, as 32 bits
-      const Reg first = load_aligned(sums + 32 * pair);
-      const Reg second = load_aligned(sums + 32 * pair + 16);
-      const Reg bytes = _mm256_packs_epi16(_mm256_cmpeq_epi16(min16(first, limit), first),
-                                           _mm256_cmpeq_epi16(min16(second, limit), second));
-      const Reg ordered = _mm256_permute4x64_epi64(bytes, _MM_SHUFFLE(3, 1, 2, 0));
-      bits |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_epi8(ordered))) << (32 * pair);
-    }
-    return bits;
+  static std::uint32_t at_most(const std::uint16_t* sums, Reg limit) {
+    const Reg first = load_aligned(sums);
+    const Reg second = load_aligned(sums + 16);
+    const Reg bytes = _mm256_packs_epi16(_mm256_cmpeq_epi16(min16(first, limit), first),
+                                         _mm256_cmpeq_epi16(min16(second, limit), second));
+    return static_cast<unsigned>(
+        _mm256_movemask_epi8(_mm256_permute4x64_epi64(bytes, _MM_SHUFFLE(3, 1, 2, 0))));
   }
 
   // above + 2·row by one pmaddubsw, and below, of the pixels to the right less those to the left.

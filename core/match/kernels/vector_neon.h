@@ -52,6 +52,7 @@ struct VectorNeon {
     second = vaddq_u16(second, vsubl_u8(vget_high_u8(bytes(added)), vget_high_u8(bytes(removed))));
   }
 
+  static Reg bit_and(Reg a, Reg b) { return vandq_u16(a, b); }
   static Reg add16(Reg a, Reg b) { return vaddq_u16(a, b); }
   static Reg sub16(Reg a, Reg b) { return vsubq_u16(a, b); }
   static Reg min16(Reg a, Reg b) { return vminq_u16(a, b); }
@@ -87,20 +88,15 @@ struct VectorNeon {
     return least_of(found);
   }
 
-  template <int kVectors>
-  static std::uint64_t at_most(const std::uint16_t* sums, Reg limit) {
+  static std::uint32_t at_most(const std::uint16_t* sums, Reg limit) {
     static constexpr std::uint8_t kBits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
     const uint8x8_t weights = vld1_u8(kBits);
-    std::uint64_t bits = 0;
-#pragma GCC unroll 8
-    for (int i = 0; i < 2 * kVectors; ++i) {  // 8 numbers, as 8 bits
-      uint8x8_t set = vand_u8(vmovn_u16(vcleq_u16(load(sums + 8 * i), limit)), weights);
-      set = vpadd_u8(set, set);
-      set = vpadd_u8(set, set);
-      set = vpadd_u8(set, set);
-      bits |= static_cast<std::uint64_t>(vget_lane_u8(set, 0)) << (8 * i);
-    }
-    return bits;
+    const uint8x8_t first = vand_u8(vmovn_u16(vcleq_u16(load(sums), limit)), weights);
+    const uint8x8_t second = vand_u8(vmovn_u16(vcleq_u16(load(sums + 8), limit)), weights);
+    uint8x8_t bits = vpadd_u8(first, second);
+    bits = vpadd_u8(bits, bits);
+    bits = vpadd_u8(bits, bits);
+    return vget_lane_u16(vreinterpret_u16_u8(bits), 0);
   }
 
   static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,

@@ -76,6 +76,7 @@ struct VectorScalar {
   }
 
   /// 16-bit lanes, modulo 65536; min16 of biased numbers.
+  static Reg bit_and(Reg a, Reg b) { return a & b; }
   static Reg add16(Reg a, Reg b) { return a + b; }
   static Reg sub16(Reg a, Reg b) { return a - b; }
   static Reg min16(Reg a, Reg b) { return a < b ? a : b; }
@@ -115,12 +116,10 @@ struct VectorScalar {
     return 0;
   }
 
-  /// A bit for each of 16·kVectors (or 32·kVectors) biased numbers in memory, in order: is it at most the
-  /// limit?
-  template <int kVectors>
-  static std::uint64_t at_most(const std::uint16_t* sums, Reg limit) {
-    std::uint64_t bits = 0;
-    for (int k = 0; k < 16 * kVectors; ++k) bits |= static_cast<std::uint64_t>(sums[k] <= limit[0]) << k;
+  /// A bit for each of kBytes biased numbers in memory, in order: is it at most the limit?
+  static std::uint32_t at_most(const std::uint16_t* sums, Reg limit) {
+    std::uint32_t bits = 0;
+    for (int k = 0; k < kBytes; ++k) bits |= static_cast<std::uint32_t>(sums[k] <= limit[0]) << k;
     return bits;
   }
 

@@ -43,6 +43,7 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
     second = _mm_add_epi16(second, _mm_maddubs_epi16(_mm_unpackhi_epi8(added, removed), factors));
   }
 
+  static Reg bit_and(Reg a, Reg b) { return _mm_and_si128(a, b); }
   static Reg add16(Reg a, Reg b) { return _mm_add_epi16(a, b); }
   static Reg sub16(Reg a, Reg b) { return _mm_sub_epi16(a, b); }
   static Reg min16(Reg a, Reg b) {
@@ -88,18 +89,12 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
   }
 
-  template <int kVectors>
-  static std::uint64_t at_most(const std::uint16_t* sums, Reg limit) {
-    std::uint64_t bits = 0;
-#pragma GCC unroll 8
-    for (int pair = 0; pair < kVectors; ++pair) {  // 16 numbers, as 16 bits
-      const Reg first = load_aligned(sums + 16 * pair);
-      const Reg second = load_aligned(sums + 16 * pair + 8);
-      const Reg bytes = _mm_packs_epi16(_mm_cmpeq_epi16(min16(first, limit), first),
-                                        _mm_cmpeq_epi16(min16(second, limit), second));
-      bits |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_epi8(bytes))) << (16 * pair);
-    }
-    return bits;
+  static std::uint32_t at_most(const std::uint16_t* sums, Reg limit) {
+    const Reg first = load_aligned(sums);
+    const Reg second = load_aligned(sums + 8);
+    const Reg bytes = _mm_packs_epi16(_mm_cmpeq_epi16(min16(first, limit), first),
+                                      _mm_cmpeq_epi16(min16(second, limit), second));
+    return static_cast<unsigned>(_mm_movemask_epi8(bytes));
   }
 
   // above + 2·row by one pmaddubsw, and below, of the pixels to the right less those to the left.
