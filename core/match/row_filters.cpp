@@ -45,6 +45,20 @@ void reject_ambiguous(const RowWinners& winners, std::int16_t* out) noexcept {
   }
 }
 
+void reject_left(const RowWinners& winners, const std::uint8_t* valid, std::int16_t* out) noexcept {
+  for (int x = winners.first; x < winners.end; ++x) {
+    out[x] = static_cast<std::int16_t>(out[x] | (valid[x] - 1));  // 1 leaves it, 0 sets all bits
+  }
+}
+
+void reject_right(const RowWinners& winners, int min_disparity, const std::uint8_t* valid,
+                  std::int16_t* out) noexcept {
+  for (int x = winners.first; x < winners.end; ++x) {
+    const int match = x - min_disparity - winners.index[at(x)];
+    out[x] = static_cast<std::int16_t>(out[x] | (valid[match] - 1));
+  }
+}
+
 LeftRightCheck::LeftRightCheck(int width) : claims_(at(width)) {}
 
 void LeftRightCheck::reject(const RowWinners& winners, const MatcherOptions& options,

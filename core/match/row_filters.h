@@ -18,6 +18,12 @@ void write_disparities(const RowWinners& winners, const MatcherOptions& options,
 /// Invalidates pixels with a rival (RowWinners::ambiguous).
 void reject_ambiguous(const RowWinners& winners, std::int16_t* out) noexcept;
 
+/// Invalidates pixels that the mask of their picture says show nothing: of the left one at their own column,
+/// of the right one at that of their match. `valid` is a row of a ValidityMask.
+void reject_left(const RowWinners& winners, const std::uint8_t* valid, std::int16_t* out) noexcept;
+void reject_right(const RowWinners& winners, int min_disparity, const std::uint8_t* valid,
+                  std::int16_t* out) noexcept;
+
 /// Invalidates pixels whose match in the right image is claimed by a better one of other disparity.
 class LeftRightCheck {
  public:

@@ -106,18 +106,20 @@ void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
 // The tables are made when the first frame shows how its pixels lie in memory, and again if that ever
 // changes.
 void Pipeline::prepare_maps(const LeasedPair& pair) {
-  const auto prepare = [](std::optional<RectifyMap>& map, const FrameLease& lease,
-                          const CameraCalibration* camera) {
+  const auto prepare = [](std::optional<RectifyMap>& map, std::optional<ValidityMask>& mask,
+                          const FrameLease& lease, const CameraCalibration* camera) {
     const SourceLayout layout = layout_of(lease.frame().luma);
     if (map && map->layout() == layout) return;
     map.emplace(camera != nullptr ? RectifyMap(*camera, layout) : RectifyMap::identity(layout));
+    mask.emplace(map->mask());
   };
-  prepare(left_map_, pair.left, rig_.calibration ? &rig_.calibration->left : nullptr);
-  prepare(right_map_, pair.right, rig_.calibration ? &rig_.calibration->right : nullptr);
+  prepare(left_map_, left_mask_, pair.left, rig_.calibration ? &rig_.calibration->left : nullptr);
+  prepare(right_map_, right_mask_, pair.right, rig_.calibration ? &rig_.calibration->right : nullptr);
 }
 
 void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {
-  const BandWorker::Job job{pair, *left_map_, *right_map_, output, publisher_, !speckle_filter_};
+  const BandWorker::Job job{pair,         *left_map_, *right_map_, *left_mask_,
+                            *right_mask_, output,     publisher_,  !speckle_filter_};
   const int blocks = publisher_.blocks();
   const int bands = std::min(pool_.workers(), blocks);
   pool_.run(bands, [&](int band, int /*worker*/) {

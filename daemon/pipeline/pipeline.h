@@ -77,6 +77,7 @@ class Pipeline {
   std::vector<BandWorker> workers_;
   std::optional<SpeckleFilter> speckle_filter_;
   std::optional<RectifyMap> left_map_, right_map_;
+  std::optional<ValidityMask> left_mask_, right_mask_;  // of the maps
   std::int64_t next_frame_ = 0;
   std::atomic<bool> stopping_{false};
   std::atomic<bool> finished_{false};
