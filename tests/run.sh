@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the tests need, builds, and runs them. With --all also: the formatting, core/ on its own, the address
-# and thread sanitizers, and the demo. Ends with one line that sums up.
+# and thread sanitizers, other CPUs by emulation, and the demo. Ends with one line that sums up.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -64,6 +64,11 @@ check_format() {
     xargs -0 "$tool" --dry-run -Werror
 }
 
+# Says itself which CPUs it has to skip where the emulator or a compiler cannot be had.
+emulated_cpus() {
+  toolchain/install-deps.sh --emulation && tests/emulated/run.sh
+}
+
 case "${1:-}" in
   '' | --all) ;;
   *) die "usage: tests/run.sh [--all]" ;;
@@ -82,6 +87,7 @@ if [[ ${1:-} == --all ]]; then
   suite core-only preset core
   suite address-sanitizer preset asan
   suite thread-sanitizer tsan_preset
+  suite emulated-cpus emulated_cpus
   suite demo bash daemon/demo.sh
 fi
 

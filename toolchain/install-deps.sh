@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs with apt what building stereod and running its demo takes; with --tests also what its tests take.
+# Installs with apt what building stereod and running its demo takes; with --tests also what its tests take, with
+# --emulation also what it takes to run them on other CPUs, to fuzz and to count instructions.
 # Does nothing, and asks for no password, if everything is there.
 set -euo pipefail
 
@@ -13,6 +14,10 @@ build_packages=(
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libopencv-dev)
 # The Aloe photographs. Some mirrors do without documentation, and so can we.
 optional_packages=(opencv-doc)
+emulation_packages=(
+  qemu-user g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-i686-linux-gnu googletest
+  clang-14 llvm-14 libclang-rt-14-dev valgrind
+)
 
 die() {
   echo "install-deps: $*" >&2
@@ -23,7 +28,11 @@ packages=("${build_packages[@]}")
 case "${1:-}" in
   '') ;;
   --tests) packages+=("${test_packages[@]}") ;;
-  *) die "usage: toolchain/install-deps.sh [--tests]" ;;
+  --emulation)
+    packages+=("${test_packages[@]}")
+    optional_packages+=("${emulation_packages[@]}")
+    ;;
+  *) die "usage: toolchain/install-deps.sh [--tests | --emulation]" ;;
 esac
 
 # Prints those of its arguments that are not installed.

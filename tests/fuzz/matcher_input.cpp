@@ -1,0 +1,186 @@
+#include "tests/fuzz/matcher_input.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/match/band_matcher.h"
+#include "core/match/frame_matcher.h"
+#include "core/match/isa.h"
+#include "tests/support/matcher_cases.h"
+
+namespace stereod {
+namespace {
+
+constexpr int kMostColumns = 96;
+constexpr int kMostRows = 40;
+constexpr double kMostWork = 8e6;  // differences of the naive implementation: some milliseconds
+
+/// Takes numbers from the front of the bytes; zeros after the end.
+class Bytes {
+ public:
+  explicit Bytes(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  int byte() { return at_ < bytes_.size() ? bytes_[at_++] : 0; }
+  /// A number in [least, most].
+  int between(int least, int most) {
+    const int high = byte();
+    return least + (high * 256 + byte()) % (most - least + 1);
+  }
+  /// 0 as often as not, else a number in [1, most].
+  int off_or_up_to(int most) { return byte() % 2 == 0 ? 0 : between(1, most); }
+  std::span<const std::uint8_t> rest() const { return bytes_.subspan(at_); }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+  std::size_t at_ = 0;
+};
+
+MatcherOptions options_of(Bytes& bytes) {
+  MatcherOptions o;
+  o.min_disparity = bytes.byte() % 8 == 7 ? bytes.between(0, 1024) : bytes.byte() % 24;
+  o.disparities = bytes.byte() + 1;
+  o.window = 3 + 2 * (bytes.byte() % 15);
+  o.prefilter = bytes.byte() % 3 == 0 ? Prefilter::kNone : Prefilter::kXsobel;
+  o.prefilter_cap = bytes.between(1, 63);
+  const int texture = bytes.off_or_up_to(o.prefilter_cap * o.window * o.window);
+  if (o.prefilter == Prefilter::kXsobel) o.texture_threshold = texture;
+  o.uniqueness_ratio = bytes.off_or_up_to(100);
+  o.left_right_max_diff = bytes.off_or_up_to(256) - 1;
+  o.subpixel = bytes.byte() % 2 != 0;
+  constexpr std::array kMedians = {0, 3, 5};
+  o.median = kMedians[static_cast<std::size_t>(bytes.byte()) % kMedians.size()];
+  o.speckle_size = bytes.off_or_up_to(400);
+  o.speckle_max_diff = bytes.byte() % 4 == 0 ? bytes.byte() : bytes.byte() % 3;
+  return o;
+}
+
+/// How the bytes become pixels: alone, too many bytes would be needed before anything looks like a surface.
+StereoPair pair_of(Bytes& bytes, Size size) {
+  const int kind = bytes.byte() % 4;
+  const auto content = static_cast<std::size_t>(bytes.byte()) % kAllContents.size();
+  const auto seed = static_cast<std::uint64_t>(bytes.between(0, 65'535));
+  if (kind == 0) return random_pair(kAllContents[content], size, seed);
+  const int shift = bytes.byte() % 32;
+  const std::span<const std::uint8_t> pixels = bytes.rest();
+  const auto pixel = [&](std::size_t at) -> std::uint8_t {
+    return pixels.empty() ? std::uint8_t{0} : pixels[at % pixels.size()];
+  };
+  StereoPair pair{GreyImage(size), GreyImage(size)};
+  std::size_t at = 0;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) pair.right.at(x, y) = pixel(at++);
+  }
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      // 1: pictures that have nothing to do with each other; 2: the same, shifted; 3: shifted, and brighter.
+      if (kind == 1 || x < shift) {
+        pair.left.at(x, y) = pixel(at++);
+      } else {
+        pair.left.at(x, y) = static_cast<std::uint8_t>(pair.right.at(x - shift, y) + (kind == 3 ? 7 : 0));
+      }
+    }
+  }
+  return pair;
+}
+
+DisparityImage match_frame(const MatcherInput& input, const MatcherOptions& options, int workers) {
+  DisparityImage found(input.pair.left.size());
+  FrameMatcher matcher(options, found.size(), pool_of(workers));
+  matcher.match(input.pair.left.view(), input.pair.right.view(), found.view());
+  return found;
+}
+
+/// By one BandMatcher, band after band, so that each finds what the band before left in its memory. The bands
+/// are matched from the bottom, an order in which nothing that was left happens to be right.
+DisparityImage match_bands(const MatcherInput& input, const MatcherOptions& options) {
+  const StereoPair& pair = input.pair;
+  DisparityImage found(pair.left.size());
+  const std::unique_ptr<BandMatcher> matcher = make_band_matcher(options, found.size());
+  std::vector<int> ends = input.cuts;
+  ends.push_back(found.height());
+  for (std::size_t band = ends.size(); band-- > 0;) {
+    const int first = band == 0 ? 0 : ends[band - 1];
+    const RowRange rows = matcher->begin({first, ends[band]});
+    for (int y = rows.first; y < rows.end; ++y) {
+      std::copy_n(pair.left.row(y), pair.left.width(), matcher->left_row(y));
+      std::copy_n(pair.right.row(y), pair.right.width(), matcher->right_row(y));
+      const RowRange final_rows = matcher->push(y);
+      for (int f = final_rows.first; f < final_rows.end; ++f) {
+        std::copy_n(matcher->disparity_row(f), found.width(), found.row(f));
+      }
+    }
+  }
+  return found;
+}
+
+std::vector<MatcherOptions> contestants(const MatcherOptions& options) {
+  std::vector<MatcherOptions> all;
+  for (const Implementation implementation : {Implementation::kNaive, Implementation::kSliding}) {
+    all.push_back(options);
+    all.back().implementation = implementation;
+  }
+  for (const Isa isa : available_isas()) {
+    for (const CacheUse cache : {CacheUse::kLarge, CacheUse::kSmall}) {
+      all.push_back(options);
+      all.back().implementation = Implementation::kSimd;
+      all.back().isa = isa;
+      all.back().cache = cache;
+    }
+  }
+  return all;
+}
+
+std::string complaint(const MatcherInput& input, const MatcherOptions& options, const std::string& way,
+                      const testing::AssertionResult& result) {
+  std::ostringstream text;
+  text << input.pair.left.width() << "x" << input.pair.left.height() << ", " << describe(options)
+       << " cache=" << name_of(options.cache) << ", " << way << ": " << result.message();
+  for (const int cut : input.cuts) text << " cut=" << cut;
+  return text.str();
+}
+
+}  // namespace
+
+std::optional<MatcherInput> matcher_input(std::span<const std::uint8_t> data) {
+  Bytes bytes(data);
+  const Size size{1 + bytes.byte() % kMostColumns, 1 + bytes.byte() % kMostRows};
+  MatcherInput input;
+  input.options = options_of(bytes);
+  const int window = input.options.window;
+  const double columns = std::max(0, size.width - window + 1);
+  const double rows = std::max(0, size.height - window + 1);
+  const double disparities = std::min<double>(input.options.disparities, columns);
+  if (columns * rows * disparities * window * window > kMostWork) return std::nullopt;
+  for (int row = 0; row < size.height - 1;) {
+    row += 1 + bytes.byte() % kMostRows;
+    if (row < size.height) input.cuts.push_back(row);
+  }
+  input.pair = pair_of(bytes, size);
+  return input;
+}
+
+std::optional<std::string> disagreement_on(const MatcherInput& input) {
+  MatcherOptions naive = input.options;
+  naive.implementation = Implementation::kNaive;
+  const DisparityImage reference = match_frame(input, naive, 1);
+  for (const MatcherOptions& options : contestants(input.options)) {
+    for (int workers = 1; workers <= 3; ++workers) {
+      const DisparityImage found = match_frame(input, options, workers);
+      const testing::AssertionResult same = same_disparities(reference, found.view());
+      if (!same) return complaint(input, options, std::to_string(workers) + " workers", same);
+    }
+  }
+  // Speckle removal needs the whole image; a band's matcher leaves it to whoever has that.
+  MatcherOptions banded = input.options;
+  banded.speckle_size = 0;
+  naive.speckle_size = 0;
+  const DisparityImage unfiltered = match_frame(input, naive, 1);
+  for (const MatcherOptions& options : contestants(banded)) {
+    const DisparityImage found = match_bands(input, options);
+    const testing::AssertionResult same = same_disparities(unfiltered, found.view());
+    if (!same) return complaint(input, options, "in bands", same);
+  }
+  return std::nullopt;
+}
+
+}  // namespace stereod

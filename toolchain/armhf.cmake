@@ -1,0 +1,8 @@
+# Cross-compiles for 32-bit ARM boards with NEON, with Debian's g++-arm-linux-gnueabihf; programs run under qemu-user.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR arm)
+set(CMAKE_CXX_COMPILER arm-linux-gnueabihf-g++)
+# Debian's armhf does without NEON; without this the NEON kernel is not built. -Wno-psabi: g++ tells at length that it
+# passed some arguments differently before version 7.1.
+set(CMAKE_CXX_FLAGS_INIT "-mfpu=neon-vfpv4 -Wno-psabi")
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-arm -L /usr/arm-linux-gnueabihf)
