@@ -1,0 +1,64 @@
+#include "daemon/capture/v4l2/camera_pair.h"
+
+namespace stereod {
+
+std::string bus_of(const std::string& bus_info) {
+  const std::size_t dash = bus_info.rfind('-');
+  const bool port_follows = bus_info.starts_with("usb-") && dash != bus_info.npos && dash > 3;
+  return port_follows ? bus_info.substr(0, dash) : bus_info;
+}
+
+bool CameraPair::take_device(Side side, const std::string& device) {
+  const std::lock_guard lock(mutex_);
+  of(side).device.clear();
+  of(side).flowing = false;
+  if (!device.empty() && device == of(opposite(side)).device) return false;
+  of(side).device = device;
+  return true;
+}
+
+void CameraPair::set_facts(Side side, const StreamFacts& facts) {
+  const std::lock_guard lock(mutex_);
+  of(side).facts = facts;
+}
+
+void CameraPair::set_flowing(Side side, bool flowing) {
+  const std::lock_guard lock(mutex_);
+  of(side).flowing = flowing;
+}
+
+bool CameraPair::step_down(Side side, int step) {
+  const std::lock_guard lock(mutex_);
+  if (ladder_step_ > step) return true;  // the other camera asked for it already
+  if (ladder_step_ + 1 >= of(side).facts.ladder_steps) return false;
+  ++ladder_step_;
+  return true;
+}
+
+bool CameraPair::other_flows_on_same_bus(Side side) {
+  const std::lock_guard lock(mutex_);
+  const Camera& other = of(opposite(side));
+  return other.flowing && bus_of(other.facts.device.bus) == bus_of(of(side).facts.device.bus);
+}
+
+std::string CameraPair::bandwidth_sentence(Side side, bool automatic) {
+  const std::lock_guard lock(mutex_);
+  const Camera& own = of(side);
+  const Camera& other = of(opposite(side));
+  const std::string bus = bus_of(own.facts.device.bus);
+  std::string sentence = "the bus " + bus + " cannot carry " + describe(own.facts);
+  if (!other.device.empty() && bus_of(other.facts.device.bus) == bus) {
+    sentence += " beside the other camera's " + describe(other.facts);
+  }
+  const bool compressed = own.facts.pixels != nullptr && own.facts.pixels->work == LumaWork::kJpeg;
+  if (automatic) {
+    sentence += "; plug one camera into another USB controller, or lower cameras.fps or the size";
+  } else {
+    sentence += compressed ? "; lower cameras.fps or the size, or plug one camera into another USB controller"
+                           : "; set cameras.v4l2.format to mjpeg or auto, lower cameras.fps, or plug one "
+                             "camera into another USB controller";
+  }
+  return sentence;
+}
+
+}  // namespace stereod

@@ -1,0 +1,52 @@
+// What the two cameras of a rig have to know of each other.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <string>
+
+#include "core/pairing.h"
+#include "daemon/capture/v4l2/camera_stream.h"
+
+namespace stereod {
+
+/// Shared by the two cameras' threads.
+class CameraPair {
+ public:
+  /// `device` is the other camera's already: then it is not taken, and this is false. Empty: none any more.
+  bool take_device(Side side, const std::string& device);
+
+  /// What a camera was set up as, and whether frames come.
+  void set_facts(Side side, const StreamFacts& facts);
+  void set_flowing(Side side, bool flowing);
+
+  /// Where on the ladder of formats both cameras stand. It only goes down, and both go together, because two
+  /// cameras on one bus share its bandwidth and because matching needs two equal pictures.
+  int ladder_step() const noexcept { return ladder_step_; }
+  /// `side` cannot get the bandwidth it needs at `step`. True: both have now to be set up further down.
+  /// False: there is no further step.
+  bool step_down(Side side, int step);
+
+  /// Whether the other camera streams on the bus that `side` is on.
+  bool other_flows_on_same_bus(Side side);
+
+  /// Says which bus is full, what both cameras ask of it, and what to do.
+  std::string bandwidth_sentence(Side side, bool automatic);
+
+ private:
+  struct Camera {
+    std::string device;
+    StreamFacts facts;
+    bool flowing = false;
+  };
+  Camera& of(Side side) { return cameras_[side == Side::kLeft ? 0 : 1]; }
+
+  std::mutex mutex_;
+  Camera cameras_[2];
+  std::atomic<int> ladder_step_{0};
+};
+
+/// The bus of a device by its bus_info: "usb-0000:00:14.0-3.1" is on "usb-0000:00:14.0".
+std::string bus_of(const std::string& bus_info);
+
+}  // namespace stereod
