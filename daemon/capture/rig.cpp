@@ -61,7 +61,7 @@ Rig open_uncalibrated(const CamerasConfig& cameras) {
 }  // namespace
 
 Rig make_v4l2_rig(const CamerasConfig& cameras, std::unique_ptr<VideoSystem> system, const CameraLog& log) {
-  const auto pair = std::make_shared<CameraPair>();
+  const auto pair = std::make_shared<CameraPair>(cameras);
   Rig rig;
   rig.left = std::make_unique<V4l2Camera>(*system, pair, Side::kLeft, cameras, log);
   rig.right = std::make_unique<V4l2Camera>(*system, pair, Side::kRight, cameras, log);

@@ -29,6 +29,7 @@ void CameraPair::set_flowing(Side side, bool flowing) {
 
 bool CameraPair::step_down(Side side, int step) {
   const std::lock_guard lock(mutex_);
+  if (config_.v4l2.format != "auto") return false;
   if (ladder_step_ > step) return true;  // the other camera asked for it already
   if (ladder_step_ + 1 >= of(side).facts.ladder_steps) return false;
   ++ladder_step_;
@@ -41,7 +42,7 @@ bool CameraPair::other_flows_on_same_bus(Side side) {
   return other.flowing && bus_of(other.facts.device.bus) == bus_of(of(side).facts.device.bus);
 }
 
-std::string CameraPair::bandwidth_sentence(Side side, bool automatic) {
+std::string CameraPair::bandwidth_sentence(Side side) {
   const std::lock_guard lock(mutex_);
   const Camera& own = of(side);
   const Camera& other = of(opposite(side));
@@ -51,7 +52,7 @@ std::string CameraPair::bandwidth_sentence(Side side, bool automatic) {
     sentence += " beside the other camera's " + describe(other.facts);
   }
   const bool compressed = own.facts.pixels != nullptr && own.facts.pixels->work == LumaWork::kJpeg;
-  if (automatic) {
+  if (config_.v4l2.format == "auto") {
     sentence += "; plug one camera into another USB controller, or lower cameras.fps or the size";
   } else {
     sentence += compressed ? "; lower cameras.fps or the size, or plug one camera into another USB controller"

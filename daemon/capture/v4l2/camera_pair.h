@@ -7,12 +7,15 @@
 
 #include "core/pairing.h"
 #include "daemon/capture/v4l2/camera_stream.h"
+#include "daemon/config/config.h"
 
 namespace stereod {
 
 /// Shared by the two cameras' threads.
 class CameraPair {
  public:
+  explicit CameraPair(const CamerasConfig& config) : config_(config) {}
+
   /// `device` is the other camera's already: then it is not taken, and this is false. Empty: none any more.
   bool take_device(Side side, const std::string& device);
 
@@ -31,7 +34,7 @@ class CameraPair {
   bool other_flows_on_same_bus(Side side);
 
   /// Says which bus is full, what both cameras ask of it, and what to do.
-  std::string bandwidth_sentence(Side side, bool automatic);
+  std::string bandwidth_sentence(Side side);
 
  private:
   struct Camera {
@@ -41,6 +44,7 @@ class CameraPair {
   };
   Camera& of(Side side) { return cameras_[side == Side::kLeft ? 0 : 1]; }
 
+  const CamerasConfig config_;
   std::mutex mutex_;
   Camera cameras_[2];
   std::atomic<int> ladder_step_{0};

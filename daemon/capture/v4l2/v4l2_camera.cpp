@@ -148,6 +148,8 @@ FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
       error = EIO;
       at = CameraStep::kWait;
     }
+    const bool nothing = !lease && error == 0 && stream_.buffers_seen() == seen_before;
+    if (nothing) waiter_->wait(-1, std::chrono::milliseconds(1));  // a driver that calls for nothing
     if (error != 0) {
       lease.end();
       fail(CameraState::kLost, fault_of(at, error, node_));
@@ -211,10 +213,9 @@ void V4l2Camera::check_silence(std::int64_t now_ns) {
 
 // Goes one step down where the configuration allows it, and says what it does.
 void V4l2Camera::no_bandwidth(CameraFault& fault) {
-  const bool automatic = config_.v4l2.format == "auto";
   fault.reason = CameraReason::kNoBandwidth;
-  const bool stepped = automatic && pair_->step_down(side_, ladder_step_);
-  fault.sentence = pair_->bandwidth_sentence(side_, automatic);
+  fault.sentence = pair_->bandwidth_sentence(side_);
+  const bool stepped = pair_->step_down(side_, ladder_step_);
   if (stepped) fault.sentence += "; until then both cameras are set up with less";
   silent_starts_ = 0;
 }
@@ -257,6 +258,11 @@ SourceState V4l2Camera::state() const noexcept {
 void V4l2Camera::stop() noexcept {
   stopping_ = true;
   waiter_->wake();
+}
+
+CameraFault V4l2Camera::fault() const {
+  const std::lock_guard lock(mutex_);
+  return fault_;
 }
 
 SourceReport V4l2Camera::report() const {

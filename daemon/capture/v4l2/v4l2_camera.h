@@ -32,6 +32,8 @@ class V4l2Camera final : public FrameSource {
   SourceState state() const noexcept override;
   void stop() noexcept override;
   SourceReport report() const override;
+  /// Why it does not stream; kNone if it does. Any thread.
+  CameraFault fault() const;
   std::int64_t frame_time_ns() const noexcept override { return frame_time_ns_; }
 
  private:
