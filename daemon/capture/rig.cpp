@@ -67,6 +67,7 @@ Rig make_v4l2_rig(const CamerasConfig& cameras, std::unique_ptr<VideoSystem> sys
   rig.right = std::make_unique<V4l2Camera>(*system, pair, Side::kRight, cameras, log);
   rig.left_name = cameras.v4l2.left;
   rig.right_name = cameras.v4l2.right;
+  rig.cameras = pair;
   rig.video = std::move(system);
   return rig;
 }

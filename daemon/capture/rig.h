@@ -15,7 +15,8 @@ namespace stereod {
 
 /// Two frame sources of the same size and what is known of their geometry.
 struct Rig {
-  std::unique_ptr<VideoSystem> video;  ///< what the cameras are read with, if they are real
+  std::unique_ptr<VideoSystem> video;   ///< what the cameras are read with, if they are real
+  std::shared_ptr<CameraPair> cameras;  ///< what they know of each other, if they are real
   std::unique_ptr<FrameSource> left, right;
   std::string left_name, right_name;       ///< for the status message
   std::optional<Calibration> calibration;  ///< for images of the sources' size

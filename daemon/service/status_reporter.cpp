@@ -102,6 +102,12 @@ void StatusReporter::report() {
   status_.valid_fraction = now.published.valid_fraction;
   status_.cpu_percent = 100 * (cpu_s - before_cpu_s_) / seconds;
   status_.rss_mb = process_rss_mb();
+  if (const auto& cameras = pipeline_.rig().cameras) {
+    const PhaseReport phase = cameras->phase();
+    status_.phase_alignment = name_of(phase.state);
+    status_.phase_skew_ms = phase.skew_ms;
+    status_.phase_restarts = phase.restarts;
+  }
   fill_camera(status_.left, now.left, before_.left, seconds);
   fill_camera(status_.right, now.right, before_.right, seconds);
   encoder_.publish(bus_, status_channel_.c_str(), status_);

@@ -71,6 +71,12 @@ std::int64_t FakeVideo::now_ns() noexcept {
   return now_ns_;
 }
 
+void FakeVideo::sleep_until(std::int64_t time_ns) noexcept {
+  while (real_time_ && now_ns() < time_ns) std::this_thread::sleep_for(std::chrono::microseconds(100));
+  const std::lock_guard lock(mutex_);
+  run_until(time_ns);
+}
+
 int FakeVideo::open(const std::string& node, bool convert) {
   const std::lock_guard lock(mutex_);
   for (const auto& camera : cameras_) {

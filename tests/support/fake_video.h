@@ -103,6 +103,7 @@ class FakeVideo final : public VideoSystem {
   void* map(int descriptor, std::size_t length, std::int64_t offset, int& error) noexcept override;
   void unmap(void* memory, std::size_t length) noexcept override;
   std::int64_t now_ns() noexcept override;
+  void sleep_until(std::int64_t time_ns) noexcept override;
 
  private:
   class FakeWaiter;

@@ -1,6 +1,76 @@
 #include "daemon/capture/v4l2/camera_pair.h"
 
 namespace stereod {
+namespace {
+
+PhaseOptions phase_options(const V4l2Config& config) {
+  PhaseOptions options;
+  options.align = config.align != AlignMode::kNever;
+  options.realign = config.align == AlignMode::kAlways;
+  options.target_ns = static_cast<std::int64_t>(config.target_skew_ms * 1e6);
+  options.tries = config.align_tries;
+  return options;
+}
+
+}  // namespace
+
+std::string_view name_of(PhaseState state) {
+  switch (state) {
+    case PhaseState::kOff:
+      return "off";
+    case PhaseState::kWaiting:
+      return "waiting";
+    case PhaseState::kMeasuring:
+      return "measuring";
+    case PhaseState::kRestarting:
+      return "restarting";
+    case PhaseState::kAligned:
+      return "aligned";
+    case PhaseState::kDrifted:
+      return "drifted";
+    case PhaseState::kGivenUp:
+      return "given up";
+  }
+  return "?";
+}
+
+CameraPair::CameraPair(const CamerasConfig& config) : config_(config), phase_(phase_options(config.v4l2)) {}
+
+void CameraPair::started(Side side, std::int64_t at_ns) noexcept {
+  const std::lock_guard lock(mutex_);
+  phase_.started(side, at_ns);
+}
+
+void CameraPair::stopped(Side side) noexcept {
+  const std::lock_guard lock(mutex_);
+  phase_.interrupted(side);
+}
+
+bool CameraPair::frame(Side side, std::int64_t captured_ns) noexcept {
+  const std::lock_guard lock(mutex_);
+  phase_.add(side, captured_ns);
+  return phase_.restart_wanted() == side;
+}
+
+std::int64_t CameraPair::best_start(std::int64_t ready_ns) noexcept {
+  const std::lock_guard lock(mutex_);
+  return phase_.best_start(ready_ns);
+}
+
+PhaseReport CameraPair::phase() noexcept {
+  const std::lock_guard lock(mutex_);
+  return {phase_.state(), static_cast<double>(phase_.skew_ns().value_or(0)) * 1e-6, phase_.restarts()};
+}
+
+void CameraPair::set_exposure(const ExposureValues& values) noexcept {
+  const std::lock_guard lock(mutex_);
+  exposure_ = values;
+}
+
+std::optional<ExposureValues> CameraPair::exposure() noexcept {
+  const std::lock_guard lock(mutex_);
+  return exposure_;
+}
 
 std::string bus_of(const std::string& bus_info) {
   const std::size_t dash = bus_info.rfind('-');

@@ -17,6 +17,7 @@ constexpr std::int64_t kLookAgain = kSecond;       // for an absent camera, shou
 constexpr std::int64_t kFirstFrame = 3 * kSecond;  // webcams take a second or two to start
 constexpr std::int64_t kSilence = kSecond;
 constexpr std::int64_t kLoanCheck = kSecond / 100;
+constexpr std::int64_t kStopTime = kSecond / 500;  // a stopped stream can be started after that
 
 std::string side_name(Side side) { return side == Side::kLeft ? "left" : "right"; }
 
@@ -32,6 +33,7 @@ V4l2Camera::V4l2Camera(VideoSystem& system, std::shared_ptr<CameraPair> pair, Si
       log_(std::move(log)),
       waiter_(system.make_waiter()),
       stream_(system, size_),
+      exposure_(*pair_, side, config.v4l2),
       name_(side == Side::kLeft ? config.v4l2.left : config.v4l2.right) {
   fault_ = {CameraReason::kNotFound, CameraStep::kFind, 0, "not looked for yet"};
 }
@@ -76,7 +78,9 @@ void V4l2Camera::wait_for_device(std::int64_t until_ns) {
 void V4l2Camera::open() {
   std::optional<CameraFault> fault = find_and_open();
   if (!fault) {
-    fault = stream_.start(0);
+    set_note(exposure_.begin(stream_.device(), system_.now_ns()));
+    pair_->started(side_, system_.now_ns());
+    fault = stream_.start(exposure_.exposure_ns());
     if (fault && fault->reason == CameraReason::kNoBandwidth) no_bandwidth(*fault);
   }
   if (!fault) {
@@ -134,6 +138,9 @@ FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
     retry_ns_ = 0;
     return {};
   }
+  if (restart_wanted_) restart_in_phase();
+  if (phase_ != Phase::kFlowing) return {};
+  keep_exposure();
   const std::int64_t wait_ns = std::min(until_ns, last_good_ns_ + patience_ns()) - system_.now_ns();
   const auto wait = std::chrono::milliseconds(std::max<std::int64_t>(0, wait_ns) / 1'000'000 + 1);
   const WaitResult ready = waiter_->wait(stream_.descriptor(), wait);
@@ -161,10 +168,39 @@ FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
     buffers_at_last_good_ = stream_.buffers_seen();
     if (state_ != CameraState::kStreaming) streaming();
     had_frame_ = true;
+    restart_wanted_ = pair_->frame(side_, lease.frame().captured_ns);
     return lease;
   }
   check_silence(system_.now_ns());
   return {};
+}
+
+// Starts the stream again at the moment that brings it into phase with the other camera.
+void V4l2Camera::restart_in_phase() {
+  restart_wanted_ = false;
+  stream_.stop();
+  const std::int64_t start_ns = pair_->best_start(system_.now_ns() + kStopTime);
+  system_.sleep_until(start_ns);
+  pair_->started(side_, system_.now_ns());
+  if (auto fault = stream_.start(exposure_.exposure_ns())) {
+    fail(CameraState::kLost, std::move(*fault));
+    return;
+  }
+  had_frame_ = false;
+  last_good_ns_ = system_.now_ns();
+  buffers_at_last_good_ = 0;
+}
+
+// Between two frames, when nothing waits.
+void V4l2Camera::keep_exposure() {
+  if (exposure_.tick(stream_.device(), system_.now_ns())) set_note(exposure_.problem());
+}
+
+void V4l2Camera::set_note(const std::string& note) {
+  const std::lock_guard lock(mutex_);
+  if (note == note_) return;
+  note_ = note;
+  if (!note.empty()) log_(LogLevel::kWarning, "the " + side_name(side_) + " camera: " + note);
 }
 
 // The first frame, or the first again.
@@ -224,6 +260,8 @@ void V4l2Camera::fail(CameraState state, CameraFault fault) {
   const bool look_again = fault.step == CameraStep::kFind || fault.reason == CameraReason::kUnplugged;
   stream_.stop();
   pair_->set_flowing(side_, false);
+  pair_->stopped(side_);
+  restart_wanted_ = false;
   phase_ = Phase::kClosing;
   retry_ns_ = system_.now_ns() + (look_again ? kLookAgain : kRetry);
   const std::lock_guard lock(mutex_);

@@ -10,6 +10,7 @@
 #include "daemon/capture/frame_source.h"
 #include "daemon/capture/v4l2/camera_pair.h"
 #include "daemon/capture/v4l2/camera_stream.h"
+#include "daemon/capture/v4l2/exposure_keeper.h"
 #include "daemon/config/config.h"
 
 namespace stereod {
@@ -50,6 +51,9 @@ class V4l2Camera final : public FrameSource {
   void finish_closing(std::int64_t until_ns);
   void fail(CameraState state, CameraFault fault);
   void no_bandwidth(CameraFault& fault);
+  void restart_in_phase();
+  void keep_exposure();
+  void set_note(const std::string& note);
   std::int64_t patience_ns() const noexcept;
 
   VideoSystem& system_;
@@ -64,6 +68,7 @@ class V4l2Camera final : public FrameSource {
 
   // The camera's own thread's.
   CameraStream stream_;
+  ExposureKeeper exposure_;
   Phase phase_ = Phase::kClosed;
   std::string name_;  // what to look for
   std::string node_;  // what it was found as
@@ -71,8 +76,9 @@ class V4l2Camera final : public FrameSource {
   std::int64_t retry_ns_ = 0;  // when to look again
   std::int64_t last_good_ns_ = 0;
   std::int64_t buffers_at_last_good_ = 0;
-  bool had_frame_ = false;  // since it was opened
-  int silent_starts_ = 0;   // how often it was opened in vain while the other camera had the bus
+  bool had_frame_ = false;       // since it was opened
+  bool restart_wanted_ = false;  // to bring it into phase with the other camera
+  int silent_starts_ = 0;        // how often it was opened in vain while the other camera had the bus
   std::atomic<std::int64_t> frame_time_ns_{0};
 
   mutable std::mutex mutex_;  // guards what follows, for report()

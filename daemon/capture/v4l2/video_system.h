@@ -59,6 +59,8 @@ class VideoSystem {
   virtual void unmap(void* memory, std::size_t length) noexcept = 0;
   /// CLOCK_MONOTONIC, the clock of the drivers' time stamps.
   virtual std::int64_t now_ns() noexcept = 0;
+  /// Sleeps to the moment, for what has to be done just then.
+  virtual void sleep_until(std::int64_t time_ns) noexcept = 0;
 };
 
 /// The system this program runs on. Throws std::system_error.
