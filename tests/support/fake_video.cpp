@@ -257,8 +257,7 @@ int FakeVideo::answer_buffers(Opened& opened, unsigned long request, void* argum
       return 0;
     }
     case VIDIOC_STREAMON:
-      stream_on(opened);
-      return 0;
+      return stream_on(opened);
     case VIDIOC_STREAMOFF:
       opened.streaming = false;
       opened.queued.clear();
@@ -304,10 +303,26 @@ int FakeVideo::answer_controls(Opened& opened, unsigned long request, void* argu
   return EINVAL;
 }
 
-void FakeVideo::stream_on(Opened& opened) {
+double FakeVideo::traffic() const {
+  double bytes = 0;
+  for (const auto& [descriptor, opened] : open_) {
+    if (!opened.streaming) continue;
+    const double per_pixel = opened.format.pixels == fourcc('M', 'J', 'P', 'G') ? 0.2 : 2;
+    bytes += per_pixel * opened.format.size.width * opened.format.size.height * 1e9 /
+             static_cast<double>(opened.camera->period_ns);
+  }
+  return bytes;
+}
+
+int FakeVideo::stream_on(Opened& opened) {
   FakeCamera& camera = *opened.camera;
-  ++camera.starts;
   opened.streaming = true;
+  opened.starved = bus_capacity > 0 && traffic() > bus_capacity;
+  if (opened.starved && !starve) {
+    opened.streaming = false;
+    return ENOSPC;
+  }
+  ++camera.starts;
   opened.sequence = 0;
   const std::int64_t now = now_ns();
   if (camera.keeps_phase) {
@@ -316,6 +331,7 @@ void FakeVideo::stream_on(Opened& opened) {
   } else {
     opened.next_ns = now + camera.start_latency_ns;
   }
+  return 0;
 }
 
 void FakeVideo::deliver(Opened& opened) {
@@ -323,7 +339,7 @@ void FakeVideo::deliver(Opened& opened) {
   const std::int64_t at = opened.next_ns;
   opened.next_ns += camera.period_ns + camera.period_ns * camera.drift_ppb / 1'000'000'000;
   const std::uint32_t sequence = opened.sequence++;
-  if (camera.frozen || !camera.plugged || opened.queued.empty()) return;
+  if (camera.frozen || opened.starved || !camera.plugged || opened.queued.empty()) return;
   FakeFrame frame;
   frame.sequence = sequence;
   frame.stamp_ns = at;

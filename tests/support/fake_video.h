@@ -85,6 +85,11 @@ class FakeVideo final : public VideoSystem {
  public:
   explicit FakeVideo(bool real_time = false) : real_time_(real_time) {}
 
+  /// What all streams together may put on the bus, bytes a second; 0: anything. A stream that is too much is
+  /// refused with ENOSPC, or starts and never delivers if `starve`.
+  double bus_capacity = 0;
+  bool starve = false;
+
   /// References stay valid.
   FakeCamera& add(FakeCamera camera);
   /// Does something at a time (simulated time begins at 1000 s).
@@ -112,6 +117,7 @@ class FakeVideo final : public VideoSystem {
     DeviceFormat format;
     bool convert = false;
     bool streaming = false;
+    bool starved = false;
     std::vector<std::vector<std::uint8_t>> buffers;
     std::deque<std::uint32_t> queued;
     struct Filled {
@@ -133,7 +139,8 @@ class FakeVideo final : public VideoSystem {
   int answer_listing(Opened& opened, unsigned long request, void* argument);
   int answer_buffers(Opened& opened, unsigned long request, void* argument);
   int answer_controls(Opened& opened, unsigned long request, void* argument);
-  void stream_on(Opened& opened);
+  int stream_on(Opened& opened);
+  double traffic() const;
 
   const bool real_time_;
   mutable std::recursive_mutex mutex_;

@@ -2,6 +2,8 @@
 
 #include <linux/v4l2-controls.h>
 
+#include <utility>
+
 namespace stereod {
 
 std::string ExposureKeeper::begin(VideoDevice& device, std::int64_t now_ns) {
@@ -28,6 +30,15 @@ std::string ExposureKeeper::begin(VideoDevice& device, std::int64_t now_ns) {
   told_ = false;
   next_ns_ = now_ns + kPeriod;
   settled_ns_ = now_ns + kSettle;
+  const bool leads = side_ == Side::kLeft && config_.exposure != ExposureMode::kAuto && !fixed_by_config_;
+  const bool settled = config_.exposure == ExposureMode::kLock && pair_.exposure();
+  // Whoever had the camera before may have left its automatic modes off.
+  if (leads && !settled) {
+    for (const std::uint32_t mode : {V4L2_CID_EXPOSURE_AUTO, V4L2_CID_AUTOGAIN}) {
+      const DeviceControl* control = controls.find(mode);
+      if (control != nullptr) device.set_control(mode, control->preset);
+    }
+  }
   const std::string complaints = controls.apply(values);
   const std::int64_t time = read(device).time.value_or(0);
   exposure_ns_ = time > 0 ? time * 100'000 : 0;
