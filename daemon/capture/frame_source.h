@@ -83,7 +83,7 @@ struct SourceReport {
   std::string device;      ///< the device it is now; empty if none
   std::string format;      ///< what it gives: "MJPG 640×480 at 30/s"
   std::string note;        ///< what is worth knowing all the same, such as a control that did not take
-  std::string last_fault;  ///< the last reason it stopped for
+  std::string last_fault;  ///< the last reason it did not stream for
   std::int64_t last_fault_ns = 0;  ///< when, CLOCK_MONOTONIC; 0: never
   std::int64_t reconnects = 0;     ///< times it streamed again
   std::int64_t decode_errors = 0;  ///< frames dropped: JPEGs that could not be decoded

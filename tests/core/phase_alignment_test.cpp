@@ -65,7 +65,7 @@ struct Rig {
   std::function<std::int64_t(std::int64_t)> first_frame = [](std::int64_t at) { return at + 217 * kMs; };
 };
 
-TEST(PhaseAlignment, ACameraWithAFixedStartTimeIsAlignedWithTheSecondRestart) {
+TEST(PhaseAlignment, TheStartTimeIsLearntFromOneStartAndUsedForTheNext) {
   Rig rig({});
   rig.noise_us = 300;
   rig.run(10 * kSecond);

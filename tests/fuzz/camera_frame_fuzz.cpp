@@ -8,8 +8,12 @@
 
 #include "daemon/capture/v4l2/frame_check.h"
 #include "daemon/capture/v4l2/luma_decoder.h"
+#include "tests/fuzz/camera_frame_fuzz.h"
 
 namespace stereod {
+
+bool last_input_was_a_frame = false;
+
 namespace {
 
 constexpr std::int64_t kNow = 5'000'000'000;
@@ -55,6 +59,7 @@ void must(bool condition) {
 
 void check(const Input& input) {
   static JpegLumaDecoder decoder;
+  last_input_was_a_frame = false;
   FrameDrop drop = FrameDrop::kNoRoom;
   const std::size_t least = least_bytes(input.format, input.device);
   if (!is_complete(input.filled, input.buffer.size(), least, drop)) {
@@ -81,8 +86,10 @@ void check(const Input& input) {
     case LumaWork::kJpeg:
       if (!decoder.decode(bytes, picture.view(), drop)) {
         must(drop == FrameDrop::kNoJpeg || drop == FrameDrop::kJpegSize || drop == FrameDrop::kJpegDamaged);
+        return;
       }
   }
+  last_input_was_a_frame = true;
 }
 
 }  // namespace

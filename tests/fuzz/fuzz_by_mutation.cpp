@@ -7,10 +7,9 @@
 #include <iterator>
 #include <vector>
 
+#include "tests/fuzz/camera_frame_fuzz.h"
 #include "tests/support/camera_jpeg.h"
 #include "tests/support/random_images.h"
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace stereod {
 namespace {
@@ -68,15 +67,21 @@ int main(int argc, char** argv) {
   if (argc > 1) return 0;
   constexpr int kRounds = 4000;
   stereod::Random random(11);
-  int inputs = 0;
+  int inputs = 0, frames = 0;
   for (const stereod::Bytes& seed : stereod::seeds()) {
     LLVMFuzzerTestOneInput(seed.data(), seed.size());
+    if (!stereod::last_input_was_a_frame) {
+      std::fprintf(stderr, "the input of format %d is no frame, so that changing it tests nothing\n",
+                   seed[0]);
+      return 1;
+    }
     for (int round = 0; round < kRounds; ++round, ++inputs) {
       stereod::Bytes bytes = seed;
       stereod::mutate(bytes, random);
       LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+      frames += stereod::last_input_was_a_frame ? 1 : 0;
     }
   }
-  std::printf("%d inputs\n", inputs);
+  std::printf("%d inputs, of which %d were frames all the same\n", inputs, frames);
   return 0;
 }
