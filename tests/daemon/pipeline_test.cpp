@@ -258,6 +258,13 @@ TEST(Pipeline, PublishesWhatTheCamerasSeeOnRequest) {
   }
 }
 
+// What receivers know a type by. The two numbers are those of libbot's bot_core types.
+TEST(RawImages, HaveTheFingerprintOfBotCoreImages) {
+  const auto turned = [](std::uint64_t hash) { return hash << 1 | hash >> 63; };
+  const std::uint64_t metadata = turned(0x4d25b1a682bbfdc7U);
+  EXPECT_EQ(static_cast<std::uint64_t>(image_t::getHash()), turned(0x6fee6cb20472ff6aU + metadata));
+}
+
 TEST(Pipeline, RawImagesAreOffByDefaultAndAllocateNothing) {
   for (const bool wanted : {false, true}) {
     Config config = config_for("fast", 1);
