@@ -8,6 +8,7 @@
 #include "core/aligned_buffer.h"
 #include "core/calibration.h"
 #include "core/image.h"
+#include "core/validity_mask.h"
 #include "core/worker_pool.h"
 
 namespace stereod {
@@ -42,6 +43,11 @@ class RectifyMap {
 
   /// Where pixel (x, y) of the rectified image comes from: bytes from the source's first pixel, or -1.
   std::int32_t offset(int x, int y) const { return row_of_table(y)[x]; }
+
+  /// Which pixels of the rectified image have a source.
+  ValidityMask mask() const {
+    return {size(), [this](int x, int y) { return offset(x, y) >= 0; }};
+  }
 
   /// Rectifies row `y` into `out`: size().width bytes.
   void grey_row(const std::uint8_t* source, int y, std::uint8_t* out) const noexcept;

@@ -7,6 +7,7 @@
 
 #include "core/disparity.h"
 #include "core/match/matcher_options.h"
+#include "core/validity_mask.h"
 
 namespace stereod {
 
@@ -26,6 +27,10 @@ class BandMatcher {
   static constexpr int kRowsAhead = 16;
 
   virtual ~BandMatcher() = default;
+
+  /// From the next begin() on, no pixel gets an answer that is not valid in the left mask, or whose match is
+  /// not in the right one. Null: all are. The masks are of the image's size and outlive their use.
+  virtual void use_masks(const ValidityMask* left, const ValidityMask* right) noexcept = 0;
 
   /// Starts the band that answers for `rows` (not empty, inside the image) and returns the input rows it
   /// needs.

@@ -137,8 +137,12 @@ void BlockMatcher::judge_row(int y, const RowWinners& winners) noexcept {
   std::fill(out + winners.end, out + image_.width, kInvalidDisparity);
   search_->write(winners, out);
   if (texture_check_) texture_check_->reject(winners, options_, out);
-  if (options_.uniqueness_ratio > 0) reject_ambiguous(winners, options_.uniqueness_ratio, out);
+  if (options_.uniqueness_ratio > 0) reject_ambiguous(winners, out);
   if (left_right_check_) left_right_check_->reject(winners, options_, out);
+  if (left_mask_ != nullptr && !left_mask_->row_is_whole(y)) reject_left(winners, left_mask_->row(y), out);
+  if (right_mask_ != nullptr && !right_mask_->row_is_whole(y)) {
+    reject_right(winners, options_.min_disparity, right_mask_->row(y), out);
+  }
 }
 
 void BlockMatcher::finish_rows(int end) noexcept {

@@ -20,6 +20,10 @@ class BlockMatcher final : public BandMatcher {
  public:
   BlockMatcher(const MatcherOptions& options, Size image);
 
+  void use_masks(const ValidityMask* left, const ValidityMask* right) noexcept override {
+    left_mask_ = left;
+    right_mask_ = right;
+  }
   RowRange begin(RowRange rows) noexcept override;
   std::uint8_t* left_row(int y) noexcept override { return left_input_.row(y); }
   std::uint8_t* right_row(int y) noexcept override { return right_input_.row(y); }
@@ -58,6 +62,8 @@ class BlockMatcher final : public BandMatcher {
   RowRing<std::uint8_t> left_prefiltered_, right_prefiltered_;
   std::vector<SearchRow> waiting_;   // prefiltered, for stage (2); at most a batch
   std::vector<RowWinners> winners_;  // of a batch
+  const ValidityMask* left_mask_ = nullptr;
+  const ValidityMask* right_mask_ = nullptr;
   std::optional<LeftRightCheck> left_right_check_;
   std::optional<TextureCheck> texture_check_;
   RowRing<std::int16_t> raw_;  // with kMedianMargin invalid pixels on either side, like invalid_row_

@@ -12,6 +12,10 @@ FrameMatcher::FrameMatcher(const MatcherOptions& options, Size image, WorkerPool
   if (options.speckle_size > 0) speckle_filter_.emplace(image);
 }
 
+void FrameMatcher::use_masks(const ValidityMask* left, const ValidityMask* right) noexcept {
+  for (const auto& matcher : matchers_) matcher->use_masks(left, right);
+}
+
 void FrameMatcher::match(GreyView left, GreyView right, ImageView<std::int16_t> out) {
   assert(left.size() == image_ && right.size() == image_ && out.size() == image_);
   const int bands = std::min(pool_.workers(), image_.height);

@@ -17,6 +17,9 @@ class FrameMatcher {
   /// For images of size `image`. Throws what make_band_matcher() throws. The pool outlives the matcher.
   FrameMatcher(const MatcherOptions& options, Size image, WorkerPool& pool);
 
+  /// BandMatcher::use_masks().
+  void use_masks(const ValidityMask* left, const ValidityMask* right) noexcept;
+
   /// Left and right are rectified and, like `out`, of the size given; `out` gets 1/units_per_pixel() px.
   void match(GreyView left, GreyView right, ImageView<std::int16_t> out);
 

@@ -46,7 +46,8 @@ class NaiveSearch final : public RowSearch {
       for (int k = 0; k < n; ++k)
         costs_[static_cast<std::size_t>(k)] = window_cost(x, options_.min_disparity + k);
       pick_winner(
-          x, n, [this](int k) { return costs_[static_cast<std::size_t>(k)]; }, winners);
+          x, n, [this](int k) { return costs_[static_cast<std::size_t>(k)]; }, options_.uniqueness_ratio,
+          winners);
     }
   }
 

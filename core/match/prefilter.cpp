@@ -1,17 +1,12 @@
 #include "core/match/prefilter.h"
 
-#include "core/match/kernels/row_preparation.h"
+#include "core/match/kernels/kernel.h"
 
 namespace stereod {
-namespace {
-
-struct Baseline {};
-
-}  // namespace
 
 void xsobel_row(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width,
                 int cap, std::uint8_t* out) noexcept {
-  kernels::xsobel_row<Baseline>(above, row, below, width, cap, out);
+  kernels::kScalarKernel.xsobel_row(above, row, below, width, cap, out);
 }
 
 }  // namespace stereod

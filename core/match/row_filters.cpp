@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 
 #include "core/match/interpolation.h"
 
@@ -35,39 +36,62 @@ void write_disparities(const RowWinners& winners, const MatcherOptions& options,
   }
 }
 
-void reject_ambiguous(const RowWinners& winners, int uniqueness_ratio, std::int16_t* out) noexcept {
-  const std::uint32_t* cost = winners.cost.data();
-  const std::uint32_t* rival = winners.rival.data();
-  const auto percent = static_cast<std::uint32_t>(uniqueness_ratio);
+void reject_ambiguous(const RowWinners& winners, std::int16_t* out) noexcept {
+  const std::uint8_t* ambiguous = winners.ambiguous.data();
   for (int x = winners.first; x < winners.end; ++x) {
-    // rival ≤ cost + cost·percent/100 without the division; a rival is never below the cost.
-    const std::uint64_t lead = std::uint64_t{100} * (rival[x] - cost[x]);
-    const std::uint64_t allowed = std::uint64_t{percent} * cost[x];
-    out[x] = lead <= allowed ? kInvalidDisparity : out[x];
+    // Without a branch: kInvalidDisparity has all bits set.
+    static_assert(kInvalidDisparity == -1);
+    out[x] = static_cast<std::int16_t>(out[x] | -ambiguous[x]);
+  }
+}
+
+void reject_left(const RowWinners& winners, const std::uint8_t* valid, std::int16_t* out) noexcept {
+  for (int x = winners.first; x < winners.end; ++x) {
+    out[x] = static_cast<std::int16_t>(out[x] | (valid[x] - 1));  // 1 leaves it, 0 sets all bits
+  }
+}
+
+void reject_right(const RowWinners& winners, int min_disparity, const std::uint8_t* valid,
+                  std::int16_t* out) noexcept {
+  for (int x = winners.first; x < winners.end; ++x) {
+    const int match = x - min_disparity - winners.index[at(x)];
+    out[x] = static_cast<std::int16_t>(out[x] | (valid[match] - 1));
   }
 }
 
 LeftRightCheck::LeftRightCheck(int width) : claims_(at(width)) {}
 
-// A claim is cost and k in one number. Of the left pixels that claim the same right one, the lowest x has the
-// lowest k, so the least number is the claim that stands.
 void LeftRightCheck::reject(const RowWinners& winners, const MatcherOptions& options,
                             std::int16_t* out) noexcept {
-  std::fill(claims_.begin(), claims_.end(), std::numeric_limits<std::uint64_t>::max());
-  const std::uint16_t* index = winners.index.data();
-  const std::uint32_t* cost = winners.cost.data();
-  std::uint64_t* claims = claims_.data();
-  const int min_disparity = options.min_disparity;
-  const int max_diff = options.left_right_max_diff;
-  const int end = winners.end;
-  for (int x = winners.first; x < end; ++x) {
-    const std::uint64_t claim = std::uint64_t{cost[x]} << 16 | index[x];
-    std::uint64_t& standing = claims[x - min_disparity - index[x]];
+  if (options.cost == Cost::kSad) {  // costs stay below 2^18, k below 2^8
+    reject_by(reinterpret_cast<std::uint32_t*>(claims_.data()), winners, options, out);
+  } else {
+    reject_by(claims_.data(), winners, options, out);
+  }
+}
+
+// A claim is cost and k in one number. Of the left pixels that claim the same right one, the lowest x has the
+// lowest k, so the least number is the claim that stands.
+template <typename Claim>
+void LeftRightCheck::reject_by(Claim* claims, const RowWinners& winners, const MatcherOptions& options,
+                               std::int16_t* out) {
+  constexpr int kIndexBits = 8;
+  std::fill_n(claims, claims_.size(), std::numeric_limits<Claim>::max());
+  const std::uint16_t* index = winners.index.data() + winners.first;
+  const std::uint32_t* cost = winners.cost.data() + winners.first;
+  Claim* first = claims + winners.first - options.min_disparity;  // what k = 0 claims in the first column
+  const int count = winners.end - winners.first;
+  for (int i = 0; i < count; ++i) {
+    const Claim claim = Claim{cost[i]} << kIndexBits | index[i];
+    Claim& standing = first[i - index[i]];
     standing = claim < standing ? claim : standing;
   }
-  for (int x = winners.first; x < end; ++x) {
-    const int standing = static_cast<int>(claims[x - min_disparity - index[x]] & 0xFFFF);
-    out[x] = std::abs(standing - index[x]) > max_diff ? kInvalidDisparity : out[x];
+  const auto max_diff = static_cast<unsigned>(options.left_right_max_diff);
+  for (int i = 0; i < count; ++i) {
+    const int standing = static_cast<int>(first[i - index[i]] & ((1U << kIndexBits) - 1));
+    // |difference| > max_diff, in one comparison.
+    const bool differs = static_cast<unsigned>(standing - index[i]) + max_diff > 2 * max_diff;
+    out[winners.first + i] = static_cast<std::int16_t>(out[winners.first + i] | -static_cast<int>(differs));
   }
 }
 
@@ -79,20 +103,32 @@ void TextureCheck::reset() noexcept { column_sums_.fill_zero(); }
 
 void TextureCheck::add_row(const std::uint8_t* added, const std::uint8_t* removed, int cap) noexcept {
   const int width = static_cast<int>(column_sums_.size());
-  for (int x = 0; x < width; ++x) column_sums_[at(x)] += std::abs(added[x] - cap);
-  if (removed == nullptr) return;
-  for (int x = 0; x < width; ++x) column_sums_[at(x)] -= std::abs(removed[x] - cap);
+  std::uint16_t* sums = column_sums_.data();
+  const auto middle = static_cast<std::int16_t>(cap);
+  const auto gradient = [middle](std::uint8_t value) {
+    return static_cast<std::uint16_t>(std::abs(static_cast<std::int16_t>(value - middle)));
+  };
+  if (removed == nullptr) {
+    for (int x = 0; x < width; ++x) sums[x] = static_cast<std::uint16_t>(sums[x] + gradient(added[x]));
+  } else {
+    for (int x = 0; x < width; ++x) {
+      sums[x] = static_cast<std::uint16_t>(sums[x] + gradient(added[x]) - gradient(removed[x]));
+    }
+  }
 }
 
 void TextureCheck::reject(const RowWinners& winners, const MatcherOptions& options,
                           std::int16_t* out) noexcept {
   const int r = options.window / 2;
-  std::int32_t sum = 0;
-  for (int x = winners.first - r; x < winners.first + r; ++x) sum += column_sums_[at(x)];
+  const std::uint16_t* leaving = column_sums_.data() + winners.first - r;
+  const std::uint16_t* coming = leaving + options.window - 1;
+  const int threshold = options.texture_threshold;
+  int sum = 0;
+  for (int i = 0; i < options.window - 1; ++i) sum += leaving[i];
   for (int x = winners.first; x < winners.end; ++x) {
-    sum += column_sums_[at(x + r)];
-    if (sum < options.texture_threshold) out[x] = kInvalidDisparity;
-    sum -= column_sums_[at(x - r)];
+    sum += *coming++;
+    if (sum < threshold) out[x] = kInvalidDisparity;
+    sum -= *leaving++;
   }
 }
 

@@ -15,8 +15,14 @@ namespace stereod {
 /// px (docs/matcher.md, section 3).
 void write_disparities(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept;
 
-/// Invalidates pixels with a rival whose cost is within `uniqueness_ratio` percent.
-void reject_ambiguous(const RowWinners& winners, int uniqueness_ratio, std::int16_t* out) noexcept;
+/// Invalidates pixels with a rival (RowWinners::ambiguous).
+void reject_ambiguous(const RowWinners& winners, std::int16_t* out) noexcept;
+
+/// Invalidates pixels that the mask of their picture says show nothing: of the left one at their own column,
+/// of the right one at that of their match. `valid` is a row of a ValidityMask.
+void reject_left(const RowWinners& winners, const std::uint8_t* valid, std::int16_t* out) noexcept;
+void reject_right(const RowWinners& winners, int min_disparity, const std::uint8_t* valid,
+                  std::int16_t* out) noexcept;
 
 /// Invalidates pixels whose match in the right image is claimed by a better one of other disparity.
 class LeftRightCheck {
@@ -26,6 +32,9 @@ class LeftRightCheck {
   std::size_t scratch_bytes() const noexcept;
 
  private:
+  template <typename Claim>
+  void reject_by(Claim* claims, const RowWinners& winners, const MatcherOptions& options, std::int16_t* out);
+
   AlignedBuffer<std::uint64_t> claims_;  // by column of the right image
 };
 
@@ -40,7 +49,7 @@ class TextureCheck {
   std::size_t scratch_bytes() const noexcept;
 
  private:
-  AlignedBuffer<std::int32_t> column_sums_;
+  AlignedBuffer<std::uint16_t> column_sums_;  // at most 31 rows of 63
 };
 
 }  // namespace stereod

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 
@@ -22,11 +21,11 @@ struct RowWinners {
         cost(static_cast<std::size_t>(width)),
         before(static_cast<std::size_t>(width)),
         after(static_cast<std::size_t>(width)),
-        rival(static_cast<std::size_t>(width)) {}
+        ambiguous(static_cast<std::size_t>(width)) {}
 
-  std::size_t bytes() const { return index.size() * (sizeof(index[0]) + 4 * sizeof(cost[0])); }
-
-  static constexpr std::uint32_t kNoRival = std::numeric_limits<std::uint32_t>::max();
+  std::size_t bytes() const {
+    return index.size() * (sizeof(index[0]) + 3 * sizeof(cost[0]) + sizeof(ambiguous[0]));
+  }
 
   int first = 0;
   int end = 0;
@@ -34,7 +33,8 @@ struct RowWinners {
   AlignedBuffer<std::uint32_t> cost;    ///< C(k)
   AlignedBuffer<std::uint32_t> before;  ///< C(k−1); meaningless where k is the first or last searched
   AlignedBuffer<std::uint32_t> after;   ///< C(k+1); likewise
-  AlignedBuffer<std::uint32_t> rival;   ///< least C(k') with |k' − k| > 1, kNoRival if there is none
+  AlignedBuffer<std::uint8_t>
+      ambiguous;  ///< 1 if some k', |k' − k| > 1, has C(k') ≤ uniqueness_limit(), else 0
 };
 
 /// A prefiltered row of both pictures for a search. The memory stays as it is until `window` more rows were
@@ -59,7 +59,7 @@ class RowSearch {
   virtual int batch() const noexcept { return 1; }
 
   /// Adds the next rows of both pictures, at most batch(). Of the winners, `before` and `after` are filled
-  /// only with subpixel, `rival` only with uniqueness_ratio.
+  /// only with subpixel, `ambiguous` only with uniqueness_ratio.
   virtual void add_rows(std::span<const SearchRow> rows) noexcept = 0;
 
   /// Writes the disparities of what add_rows() found, from winners.first on: write_disparities() of
@@ -88,11 +88,16 @@ std::unique_ptr<RowSearch> make_naive_search(const MatcherOptions& options, int 
 std::unique_ptr<RowSearch> make_sliding_search(const MatcherOptions& options, int width);
 std::unique_ptr<RowSearch> make_simd_search(const MatcherOptions& options, int width);
 
+/// Up to which cost another disparity makes a winner of this cost ambiguous.
+inline std::uint64_t uniqueness_limit(std::uint64_t cost, int uniqueness_ratio) {
+  return cost + cost * static_cast<std::uint64_t>(uniqueness_ratio) / 100;
+}
+
 /// Writes what RowWinners holds for column x, from the costs of the n disparities searched there. Cost(k)
-/// returns C(k). The definition of the winner, its neighbours and its rival (docs/matcher.md, sections 2 to
+/// returns C(k). The definition of the winner, its neighbours and its rivals (docs/matcher.md, sections 2 to
 /// 4).
 template <typename CostOf>
-void pick_winner(int x, int n, CostOf cost, RowWinners& winners) {
+void pick_winner(int x, int n, CostOf cost, int uniqueness_ratio, RowWinners& winners) {
   int best = 0;
   for (int k = 1; k < n; ++k) {
     if (cost(k) < cost(best)) best = k;
@@ -102,9 +107,11 @@ void pick_winner(int x, int n, CostOf cost, RowWinners& winners) {
   winners.cost[at] = cost(best);
   winners.before[at] = best > 0 ? cost(best - 1) : 0;
   winners.after[at] = best < n - 1 ? cost(best + 1) : 0;
-  winners.rival[at] = RowWinners::kNoRival;
+  if (uniqueness_ratio == 0) return;
+  const std::uint64_t limit = uniqueness_limit(cost(best), uniqueness_ratio);
+  winners.ambiguous[at] = 0;
   for (int k = 0; k < n; ++k) {
-    if ((k < best - 1 || k > best + 1) && cost(k) < winners.rival[at]) winners.rival[at] = cost(k);
+    if ((k < best - 1 || k > best + 1) && cost(k) <= limit) winners.ambiguous[at] = 1;
   }
 }
 

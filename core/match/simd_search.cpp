@@ -1,5 +1,5 @@
-// Drives the vector kernels: which arithmetic fits, how disparities are cut into chunks and columns into strips,
-// whose memory is used.
+// Drives the vector kernels: which arithmetic fits, how disparities are cut into chunks and columns into
+// strips, whose memory is used.
 #include <algorithm>
 #include <vector>
 
@@ -42,10 +42,8 @@ Arithmetic fitting_arithmetic(const MatcherOptions& options) {
   if (largest >= kMasked) return Arithmetic::kWide;
   if (!small_differences) return Arithmetic::kRaw;
   if (largest * 8 + 7 < kMasked) return Arithmetic::kPacked;
-  return largest * 4 + 3 < kMasked ? Arithmetic::kPackedHalves : Arithmetic::kNarrow;
+  return largest * 4 + 3 < kMasked ? Arithmetic::kPackedHalves : Arithmetic::kRaw;
 }
-
-int rounded_up(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
 
 Shape shape_for(const MatcherOptions& options, int width, const Kernel& kernel) {
   Shape shape{};
@@ -56,13 +54,14 @@ Shape shape_for(const MatcherOptions& options, int width, const Kernel& kernel) 
   shape.window = options.window;
   if (shape.arithmetic == Arithmetic::kWide) {
     shape.chunks = 1;
+    shape.chunk = options.disparities;
   } else {
     shape.chunks = (options.disparities + kernels::kMaxChunk - 1) / kernels::kMaxChunk;
+    shape.chunk = kernel.chunk_for((options.disparities + shape.chunks - 1) / shape.chunks);
     shape.recompute = resolve_cache_use(options.cache) == CacheUse::kSmall;
   }
-  shape.chunk = rounded_up((options.disparities + shape.chunks - 1) / shape.chunks, kernel.granularity);
   shape.neighbours = options.subpixel;
-  shape.rival = options.uniqueness_ratio > 0;
+  shape.uniqueness_ratio = options.uniqueness_ratio;
   return shape;
 }
 
@@ -93,9 +92,11 @@ class SimdSearch final : public RowSearch {
         strips_(strips_for(shape_)),
         right_rows_(shape_.right_row_bytes(), shape_.recompute ? shape_.window + kBatch : 1),
         left_rows_(size(shape_.recompute ? shape_.window + kBatch : 1)),
-        zeros_(size(shape_.right_row_bytes())),
-        differences_(shape_.recompute ? 0 : size(shape_.window) * difference_row_bytes()),
+        zeros_(shape_.recompute ? size(shape_.right_row_bytes()) : difference_row_bytes()),
+        differences_(shape_.recompute ? 0 : size(shape_.window + 1) * difference_row_bytes()),
+        lane_masks_(size(shape_.padded_disparities())),
         block_sums_(size(kernels::kBlockColumns) * size(shape_.padded_disparities()) + 2 * kBlockMargin) {
+    kernel_.fill_lane_masks(shape_, lane_masks_.data());
     for (const Strip& strip : strips_) {
       column_sums_.emplace_back(size(shape_.window + strip.columns()) * size(shape_.padded_disparities()));
     }
@@ -103,7 +104,6 @@ class SimdSearch final : public RowSearch {
 
   void reset() noexcept override {
     for (auto& sums : column_sums_) sums.fill_zero();
-    differences_.fill_zero();
     next_row_ = 0;
   }
 
@@ -116,7 +116,8 @@ class SimdSearch final : public RowSearch {
       kernel_.prepare_right_row(shape_, rows[i].right, right_rows_.row(y));
     }
     for (std::size_t s = 0; s < strips_.size(); ++s) {
-      for (std::size_t i = 0; i < rows.size(); ++i) add_row(s, next_row_ + static_cast<int>(i), rows[i].winners);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        add_row(s, next_row_ + static_cast<int>(i), rows[i].winners);
     }
     next_row_ += static_cast<int>(rows.size());
   }
@@ -146,37 +147,46 @@ class SimdSearch final : public RowSearch {
   static constexpr std::size_t kBlockMargin =
       64;  // the neighbours of the first and last disparity may be read
 
-  std::size_t difference_row_bytes() const { return size(shape_.columns()) * size(shape_.padded_disparities()); }
+  std::size_t difference_row_bytes() const {
+    return size(shape_.columns()) * size(shape_.padded_disparities());
+  }
+
+  std::uint8_t* differences(int y) {
+    return differences_.data() + size(y % (shape_.window + 1)) * difference_row_bytes();
+  }
 
   kernels::InputRow input_row(int y) const {
-    if (y < 0) return {zeros_.data(), zeros_.data()};
     return {left_rows_[size(y) % left_rows_.size()], right_rows_.row(y)};
   }
 
   void add_row(std::size_t strip, int y, RowWinners* winners) noexcept {
-    kernels::RowChange change{input_row(y), {}, nullptr};
+    kernels::RowChange change{input_row(y), {}, nullptr, nullptr};
+    const int leaving = y - shape_.window;
     if (shape_.recompute) {
-      change.removed = input_row(y - shape_.window);
+      change.removed = leaving >= 0 ? input_row(leaving) : kernels::InputRow{zeros_.data(), zeros_.data()};
     } else {
-      change.differences = differences_.data() + size(y % shape_.window) * difference_row_bytes();
+      change.differences = differences(y);
+      change.removed_differences = leaving >= 0 ? differences(leaving) : zeros_.data();
     }
-    const kernels::Scratch scratch{column_sums_[strip].data(), block_sums_.data() + kBlockMargin};
+    const kernels::Scratch scratch{column_sums_[strip].data(), block_sums_.data() + kBlockMargin,
+                                   lane_masks_.data()};
     if (winners == nullptr) return kernel_.add_row(shape_, strips_[strip], change, scratch);
     const auto at = size(winners->first);
     kernel_.search_row(shape_, strips_[strip], change, scratch,
                        {winners->index.data() + at, winners->cost.data() + at, winners->before.data() + at,
-                        winners->after.data() + at, winners->rival.data() + at});
+                        winners->after.data() + at, winners->ambiguous.data() + at});
   }
 
   MatcherOptions options_;
   const Kernel& kernel_;
   Shape shape_;
-  std::vector<Strip> strips_;                     // one over all columns, unless shape_.recompute
-  RowRing<std::uint8_t> right_rows_;              // as the kernel wants them
-  std::vector<const std::uint8_t*> left_rows_;    // row y is at y modulo the size
-  AlignedBuffer<std::uint8_t> zeros_;             // what leaves the window while it fills
-  AlignedBuffer<std::uint8_t> differences_;       // of the last `window` rows, in turn
+  std::vector<Strip> strips_;                              // one over all columns, unless shape_.recompute
+  RowRing<std::uint8_t> right_rows_;                       // as the kernel wants them
+  std::vector<const std::uint8_t*> left_rows_;             // row y is at y modulo the size
+  AlignedBuffer<std::uint8_t> zeros_;                      // what leaves the window while it fills
+  AlignedBuffer<std::uint8_t> differences_;                // of the last `window` rows, in turn
   std::vector<AlignedBuffer<std::uint16_t>> column_sums_;  // of each strip
+  AlignedBuffer<std::uint8_t> lane_masks_;
   AlignedBuffer<std::uint16_t> block_sums_;
   int next_row_ = 0;
 };

@@ -79,7 +79,8 @@ class SlidingSearch final : public RowSearch {
       const int n = std::min(options_.disparities, x - winners.first + 1);
       const std::uint32_t* s2 = window_sums_.data() + x + options_.window / 2 - options_.min_disparity;
       pick_winner(
-          x, n, [&](int k) { return s2[static_cast<std::ptrdiff_t>(k) * columns_]; }, winners);
+          x, n, [&](int k) { return s2[static_cast<std::ptrdiff_t>(k) * columns_]; },
+          options_.uniqueness_ratio, winners);
     }
   }
 

@@ -1,19 +1,27 @@
 #include "core/match/speckle.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstdlib>
+#include <cstring>
+#include <limits>
 #include <utility>
 
 namespace stereod {
 namespace {
+
+static_assert(std::endian::native == std::endian::little);  // the first of eight bytes is the lowest
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
 SpeckleFilter::SpeckleFilter(Size image)
-    : size_(image), runs_(at(image.width) * at(image.height)), row_first_run_(at(image.height) + 1) {}
+    : size_(image),
+      runs_(at(image.width) * at(image.height)),
+      row_first_run_(at(image.height) + 1),
+      cuts_(at(image.width) + kMarks) {}
 
 void SpeckleFilter::apply(ImageView<std::int16_t> disparity, int max_size, int max_step) noexcept {
   assert(disparity.size() == size_);
@@ -34,17 +42,42 @@ void SpeckleFilter::apply(ImageView<std::int16_t> disparity, int max_size, int m
 }
 
 void SpeckleFilter::cut_row(const std::int16_t* row, int max_step) noexcept {
-  int x = 0;
-  while (x < size_.width) {
-    if (row[x] == kInvalidDisparity) {
-      ++x;
-      continue;
+  mark_cuts(row, max_step);
+  int first = 0;
+  const auto end_run = [&](int end) {
+    if (row[first] != kInvalidDisparity) {
+      runs_[at(run_count_)] = {run_count_, end - first, static_cast<std::int16_t>(first),
+                               static_cast<std::int16_t>(end)};
+      ++run_count_;
     }
-    const int first = x++;
-    while (x < size_.width && row[x] != kInvalidDisparity && std::abs(row[x] - row[x - 1]) <= max_step) ++x;
-    runs_[at(run_count_)] = {run_count_, x - first, static_cast<std::int16_t>(first),
-                             static_cast<std::int16_t>(x)};
-    ++run_count_;
+    first = end;
+  };
+  for (int x = 0; x < size_.width; x += kMarks) {
+    std::uint64_t marks = 0;  // of eight pixels, mostly none
+    std::memcpy(&marks, cuts_.data() + x, sizeof(marks));
+    for (; marks != 0; marks &= marks - 1) end_run(x + std::countr_zero(marks) / 8);
+  }
+  end_run(size_.width);
+}
+
+// cuts_[x] becomes 1 where pixel x does not hang together with x − 1: one of them is invalid and the other is
+// not, or the step is too large.
+void SpeckleFilter::mark_cuts(const std::int16_t* row, int max_step) noexcept {
+  const int width = size_.width;
+  const auto most =
+      static_cast<std::int16_t>(std::min<int>(max_step, std::numeric_limits<std::int16_t>::max()));
+  std::uint8_t* __restrict cuts = cuts_.data();
+  for (int x = 1; x < width; ++x) {
+    const std::int16_t here = row[x];
+    const std::int16_t before = row[x - 1];
+    const auto up = static_cast<std::int16_t>(here - before);
+    const auto down = static_cast<std::int16_t>(before - here);
+    const auto step = up > down ? up : down;
+    // Of whole numbers, all bits set or none: vectors can do that.
+    const auto apart = static_cast<std::int16_t>(-static_cast<std::int16_t>(step > most));
+    const auto edge = static_cast<std::int16_t>(-static_cast<std::int16_t>(here == kInvalidDisparity) ^
+                                                -static_cast<std::int16_t>(before == kInvalidDisparity));
+    cuts[x] = static_cast<std::uint8_t>((apart | edge) & 1);
   }
 }
 

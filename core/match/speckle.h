@@ -25,7 +25,10 @@ class SpeckleFilter {
     std::int16_t first, end;
   };
 
+  static constexpr int kMarks = 8;  // looked at in one go
+
   void cut_row(const std::int16_t* row, int max_step) noexcept;
+  void mark_cuts(const std::int16_t* row, int max_step) noexcept;
   void join_rows(const std::int16_t* upper, const std::int16_t* lower, int y, int max_step) noexcept;
   std::int32_t root_of(std::int32_t run) noexcept;
   void unite(std::int32_t a, std::int32_t b) noexcept;
@@ -34,6 +37,7 @@ class SpeckleFilter {
   std::vector<Run> runs_;  // room for as many as there are pixels; in reading order
   std::int32_t run_count_ = 0;
   std::vector<std::int32_t> row_first_run_;  // and one entry for the end
+  std::vector<std::uint8_t> cuts_;           // of one row, and zeros after it
 };
 
 }  // namespace stereod

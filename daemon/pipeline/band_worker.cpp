@@ -14,6 +14,7 @@ void BandWorker::run(const Job& job, RowRange blocks) noexcept {
   next_block_ = blocks.first;
   const RowRange band{job.publisher.block_rows(blocks.first).first,
                       job.publisher.block_rows(blocks.end - 1).end};
+  matcher_->use_masks(&job.left_mask, &job.right_mask);
   const RowRange input = matcher_->begin(band);
   for (int y = input.first; y < input.end; y += BandMatcher::kRowsAhead) {
     const RowRange rows{y, std::min(y + BandMatcher::kRowsAhead, input.end)};

@@ -21,6 +21,8 @@ class BandWorker {
     const LeasedPair& pair;
     const RectifyMap& left_map;
     const RectifyMap& right_map;
+    const ValidityMask& left_mask;
+    const ValidityMask& right_mask;
     OutputFrame& output;
     FramePublisher& publisher;
     bool announce;  ///< rows are final once they are matched; false if a filter waits for the whole frame

@@ -29,9 +29,13 @@ namespace {
 constexpr int kBadInput = 2;
 constexpr int kFailure = 1;
 
+struct Picture {
+  GreyImage image;
+  std::optional<ValidityMask> mask;  ///< if it was rectified
+};
+
 struct Pair {
-  GreyImage left;
-  GreyImage right;
+  Picture left, right;
 };
 
 std::string words_for(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
@@ -44,27 +48,28 @@ void require_size(const std::filesystem::path& file, const char* what, Size foun
                   reference.string() + " has " + words_for(wanted) + "; they must have one size");
 }
 
-GreyImage rectified(const GreyImage& source, const CameraCalibration& calibration, WorkerPool& pool) {
+Picture rectified(const GreyImage& source, const CameraCalibration& calibration, WorkerPool& pool) {
   const RectifyMap map(calibration, {source.size(), source.view().stride(), 1});
-  GreyImage result(source.size());
-  rectify_grey(map, source.row(0), result.view(), pool);
+  Picture result{GreyImage(source.size()), map.mask()};
+  rectify_grey(map, source.row(0), result.image.view(), pool);
   return result;
 }
 
 Pair read_pair(const MatchArguments& arguments, const std::optional<Calibration>& calibration,
                WorkerPool& pool) {
-  Pair pair{read_grey(arguments.left), read_grey(arguments.right)};
-  require_size(arguments.right, "has", pair.right.size(), arguments.left, pair.left.size());
-  if (!calibration) return pair;
-  require_size(*arguments.calibration, "is for", calibration->image, arguments.left, pair.left.size());
-  return {rectified(pair.left, calibration->left, pool), rectified(pair.right, calibration->right, pool)};
+  GreyImage left = read_grey(arguments.left);
+  GreyImage right = read_grey(arguments.right);
+  require_size(arguments.right, "has", right.size(), arguments.left, left.size());
+  if (!calibration) return {{std::move(left), {}}, {std::move(right), {}}};
+  require_size(*arguments.calibration, "is for", calibration->image, arguments.left, left.size());
+  return {rectified(left, calibration->left, pool), rectified(right, calibration->right, pool)};
 }
 
 std::vector<double> measure(FrameMatcher& matcher, const Pair& pair, DisparityImage& disparity, int runs) {
   std::vector<double> times_ms;
   for (int run = 0; run < runs; ++run) {
     const auto start = std::chrono::steady_clock::now();
-    matcher.match(pair.left.view(), pair.right.view(), disparity.view());
+    matcher.match(pair.left.image.view(), pair.right.image.view(), disparity.view());
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
     times_ms.push_back(time.count());
   }
@@ -90,19 +95,20 @@ void run(const MatchArguments& arguments) {
   std::optional<Image<float>> truth;
   if (arguments.ground_truth) {
     truth = read_ground_truth(*arguments.ground_truth, arguments.ground_truth_scale);
-    require_size(*arguments.ground_truth, "has", truth->size(), arguments.left, pair.left.size());
+    require_size(*arguments.ground_truth, "has", truth->size(), arguments.left, pair.left.image.size());
   }
 
-  FrameMatcher matcher(arguments.matcher, pair.left.size(), pool);
-  DisparityImage disparity(pair.left.size());
-  matcher.match(pair.left.view(), pair.right.view(), disparity.view());
+  FrameMatcher matcher(arguments.matcher, pair.left.image.size(), pool);
+  if (pair.left.mask) matcher.use_masks(&*pair.left.mask, &*pair.right.mask);
+  DisparityImage disparity(pair.left.image.size());
+  matcher.match(pair.left.image.view(), pair.right.image.view(), disparity.view());
 
   const int units = arguments.matcher.units_per_pixel();
   if (arguments.output) write_disparity(*arguments.output, disparity.view(), units);
   if (arguments.color) write_view(arguments, disparity, calibration);
   if (arguments.rectified) {
-    write_png(arguments.rectified->left, pair.left.view());
-    write_png(arguments.rectified->right, pair.right.view());
+    write_png(arguments.rectified->left, pair.left.image.view());
+    write_png(arguments.rectified->right, pair.right.image.view());
   }
   if (truth) {
     const double grey_per_px = 255.0 / (arguments.matcher.min_disparity + arguments.matcher.disparities);

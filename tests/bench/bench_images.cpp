@@ -27,17 +27,19 @@ std::optional<MatPair> load_tsukuba() {
   return load((folder / "left.png").string(), (folder / "right.png").string(), cv::IMREAD_GRAYSCALE);
 }
 
-std::optional<MatPair> load_aloe_vga() {
+std::optional<MatPair> load_aloe(cv::Size size) {
   std::optional<MatPair> pair =
       load(std::string(kAloe) + "L.jpg", std::string(kAloe) + "R.jpg", cv::IMREAD_COLOR);
   if (!pair) return std::nullopt;
   for (cv::Mat* mat : {&pair->left, &pair->right}) {
     cv::Mat resized;
-    cv::resize(*mat, resized, {640, 480}, 0, 0, cv::INTER_AREA);
+    cv::resize(*mat, resized, size, 0, 0, cv::INTER_AREA);
     *mat = resized;
   }
   return pair;
 }
+
+std::optional<MatPair> load_aloe_vga() { return load_aloe({640, 480}); }
 
 cv::Mat grey_of(const cv::Mat& color) {
   cv::Mat grey;

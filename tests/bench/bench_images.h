@@ -19,8 +19,10 @@ std::filesystem::path datasets();
 /// The thesis' pictures: Tsukuba, 384×288, grey. Nothing if the data set is not there.
 std::optional<MatPair> load_tsukuba();
 
-/// Aloe (Debian's package opencv-doc) at 640×480, 24-bit colour. Nothing if the package is not installed.
-std::optional<MatPair> load_aloe_vga();
+/// Aloe (Debian's package opencv-doc), scaled to `size`, 24-bit colour. Nothing if the package is not
+/// installed.
+std::optional<MatPair> load_aloe(cv::Size size);
+std::optional<MatPair> load_aloe_vga();  ///< 640×480
 
 cv::Mat grey_of(const cv::Mat& color);
 

@@ -1,93 +1,156 @@
-// One frame of the block matcher and of OpenCV's, by picture, prefilter and instruction set, on one thread.
-// To be read for one contestant at a time; for ratios see bench_thesis, which lets the contestants take
-// turns.
-#include <benchmark/benchmark.h>
-
+// The matcher beside OpenCV's StereoBM: every setting, instruction set and number of threads.
+//
+// Usage: bench_matcher [rounds]. In each row all contestants take turns within one run; a factor is how many
+// times as fast as OpenCV that is, best time against best time. Give it an idle machine, or a high priority:
+// with something else on the cores, the best of few rounds is still not a good one.
+#include <cstdlib>
 #include <iostream>
-#include <opencv2/calib3d.hpp>
+#include <memory>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "core/match/frame_matcher.h"
 #include "core/match/isa.h"
-#include "tests/bench/bench_images.h"
+#include "tests/bench/interleaved.h"
+#include "tests/bench/matcher_cases.h"
+#include "tests/bench/tables.h"
 
 namespace stereod::bench {
 namespace {
 
-constexpr int kDisparities = 64;
-constexpr int kWindow = 11;
+constexpr const char* kOpenCv = "OpenCV";
 
-/// The fastest settings, and those that answer in 1/16 px as OpenCV's always do.
-MatcherOptions options_for(Prefilter prefilter, bool subpixel, Isa isa) {
-  MatcherOptions options;
-  options.disparities = kDisparities;
-  options.window = kWindow;
-  options.prefilter = prefilter;
-  options.subpixel = subpixel;
+/// A matcher with its threads and the memory for its answer.
+class OwnMatcher {
+ public:
+  OwnMatcher(const MatcherCase& the_case, const MatcherOptions& options, int workers)
+      : pair_(the_case.pair),
+        pool_(workers),
+        matcher_(options, view_of(pair_.left).size(), pool_),
+        answer_(view_of(pair_.left).size()) {}
+  void match() { matcher_.match(view_of(pair_.left), view_of(pair_.right), answer_.view()); }
+
+ private:
+  MatPair pair_;
+  WorkerPool pool_;
+  FrameMatcher matcher_;
+  DisparityImage answer_;
+};
+
+/// The contestants of one setting.
+class Contest {
+ public:
+  void add_opencv(const MatcherCase& the_case) {
+    const cv::Ptr<cv::StereoBM> matcher = opencv_matcher(the_case.options);
+    const auto out = std::make_shared<cv::Mat>();
+    const MatPair pair = the_case.pair;
+    run_.add(kOpenCv, [=] { matcher->compute(pair.left, pair.right, *out); });
+  }
+
+  void add(const std::string& name, const MatcherCase& the_case, const MatcherOptions& options, int workers) {
+    matchers_.push_back(std::make_unique<OwnMatcher>(the_case, options, workers));
+    OwnMatcher& matcher = *matchers_.back();
+    run_.add(name, [&matcher] { matcher.match(); });
+  }
+
+  InterleavedResults run(int rounds) const { return run_.run(rounds); }
+
+ private:
+  std::vector<std::unique_ptr<OwnMatcher>> matchers_;
+  InterleavedRun run_;
+};
+
+MatcherOptions with_isa(MatcherOptions options, Isa isa) {
   options.isa = isa;
   return options;
 }
 
-void match_own(benchmark::State& state, const MatPair& pair, const MatcherOptions& options) {
-  WorkerPool pool(1);
-  FrameMatcher matcher(options, view_of(pair.left).size(), pool);
-  DisparityImage out(view_of(pair.left).size());
-  for ([[maybe_unused]] auto turn : state) {
-    matcher.match(view_of(pair.left), view_of(pair.right), out.view());
-    benchmark::ClobberMemory();
-  }
+std::string best_and_factor(const InterleavedResults& results, const std::string& name) {
+  const double best = results.of(name).best;
+  return ms(best) + " " + times(results.of(kOpenCv).best / best);
 }
 
-/// XSobel prefilter (it cannot do without one), no test and no filter behind it.
-void match_opencv(benchmark::State& state, const MatPair& pair) {
-  cv::setNumThreads(1);
-  const cv::Ptr<cv::StereoBM> matcher = cv::StereoBM::create(kDisparities, kWindow);
-  matcher->setTextureThreshold(0);
-  matcher->setUniquenessRatio(0);
-  cv::Mat out;
-  for ([[maybe_unused]] auto turn : state) matcher->compute(pair.left, pair.right, out);
-}
-
-void register_picture(const std::string& picture, const MatPair& pair) {
-  const auto add = [](const std::string& name, auto&& function) {
-    benchmark::RegisterBenchmark(name.c_str(), function)->Unit(benchmark::kMillisecond);
-  };
-  add("opencv/" + picture + "/xsobel/subpixel",
-      [pair](benchmark::State& state) { match_opencv(state, pair); });
-  for (const Isa isa : available_isas()) {
-    for (const Prefilter prefilter : {Prefilter::kNone, Prefilter::kXsobel}) {
-      for (const bool subpixel : {false, true}) {
-        const std::string name = std::string(name_of(isa)) + "/" + picture + "/" +
-                                 std::string(name_of(prefilter)) + (subpixel ? "/subpixel" : "");
-        const MatcherOptions options = options_for(prefilter, subpixel, isa);
-        add(name, [pair, options](benchmark::State& state) { match_own(state, pair, options); });
-      }
+void measure_against_opencv(const std::vector<MatcherCase>& cases, int workers, int rounds) {
+  cv::setNumThreads(workers);
+  Cells headings{kOpenCv};
+  for (const Isa isa : available_isas()) headings.emplace_back(name_of(isa));
+  std::cout << "\n";
+  print_row(workers == 1 ? "1 thread" : std::to_string(workers) + " threads", headings);
+  for (const MatcherCase& the_case : cases) {
+    Contest contest;
+    contest.add_opencv(the_case);
+    for (const Isa isa : available_isas()) {
+      contest.add(std::string(name_of(isa)), the_case, with_isa(the_case.options, isa), workers);
     }
+    const InterleavedResults results = contest.run(rounds);
+    Cells cells{ms(results.of(kOpenCv).best)};
+    for (const Isa isa : available_isas())
+      cells.push_back(best_and_factor(results, std::string(name_of(isa))));
+    print_row(the_case.name, cells);
   }
 }
 
-void register_all() {
-  if (const std::optional<MatPair> tsukuba = load_tsukuba()) {
-    register_picture("384x288", *tsukuba);
-  } else {
-    std::cerr << "skipped: no Tsukuba pictures in " << datasets()
-              << "; set STEREO_DATASETS to where they are\n";
+/// How long each takes, times as long as the first.
+void measure_among_each_other(const std::string& title, const std::vector<MatcherCase>& cases, int rounds) {
+  if (cases.empty()) return;
+  Cells headings;
+  for (const MatcherCase& the_case : cases) headings.push_back(the_case.name);
+  std::cout << "\n";
+  print_row(title, headings);
+  for (const Isa isa : available_isas()) {
+    Contest contest;
+    for (const MatcherCase& the_case : cases) {
+      contest.add(the_case.name, the_case, with_isa(the_case.options, isa), 1);
+    }
+    const InterleavedResults results = contest.run(rounds);
+    Cells cells;
+    for (const std::string& name : headings) {
+      cells.push_back(times(results.of(name).best / results.of(headings.front()).best));
+    }
+    print_row(std::string(name_of(isa)), cells);
   }
-  if (const std::optional<MatPair> aloe = load_aloe_vga()) {
-    register_picture("640x480", {grey_of(aloe->left), grey_of(aloe->right)});
-  } else {
-    std::cerr << "skipped: no Aloe pictures; install the package opencv-doc\n";
+}
+
+/// How much faster two threads are, and what the mode for small caches costs here.
+void measure_modes(const MatcherCase& the_case, int rounds) {
+  std::cout << "\n";
+  print_row(the_case.name, {"1 thread", "2 threads", "small caches"});
+  for (const Isa isa : available_isas()) {
+    MatcherOptions large = with_isa(the_case.options, isa);
+    large.cache = CacheUse::kLarge;
+    MatcherOptions small = large;
+    small.cache = CacheUse::kSmall;
+    Contest contest;
+    contest.add("1", the_case, large, 1);
+    contest.add("2", the_case, large, 2);
+    contest.add("small", the_case, small, 1);
+    const InterleavedResults results = contest.run(rounds);
+    const double one = results.of("1").best;
+    print_row(std::string(name_of(isa)),
+              {ms(one), times(one / results.of("2").best), times(one / results.of("small").best)});
   }
+}
+
+void measure(int rounds) {
+  const std::vector<MatcherCase> cases = speed_cases();
+  if (cases.empty()) return;
+  for (const int workers : {1, 2}) measure_against_opencv(cases, workers, rounds);
+  measure_among_each_other("times as long as", odd_cases(), rounds);
+  measure_modes(cases.front(), rounds);
 }
 
 }  // namespace
 }  // namespace stereod::bench
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  stereod::bench::register_all();
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
+  const int rounds = argc > 1 ? std::atoi(argv[1]) : 60;
+  if (rounds < 1) {
+    std::cerr << "usage: bench_matcher [rounds, at least 1]\n";
+    return 2;
+  }
+  std::cout << "OpenCV " << CV_VERSION << " StereoBM and ours, same parameters and pictures, " << rounds
+            << " rounds. OpenCV always prefilters and always answers in 1/16 px.\n";
+  stereod::bench::measure(rounds);
   return 0;
 }

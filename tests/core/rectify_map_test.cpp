@@ -62,6 +62,22 @@ TEST(RectifyMap, ShiftedProjectionTakesTheShiftedPixelAndZeroOutside) {
   }
 }
 
+TEST(RectifyMap, MaskSaysWhichPixelsHaveASource) {
+  const RectifyMap map(tilted({67, 41}), {{67, 41}, 80, 1});
+  const ValidityMask mask = map.mask();
+  int without = 0;
+  for (int y = 0; y < 41; ++y) {
+    bool whole = true;
+    for (int x = 0; x < 67; ++x) {
+      EXPECT_EQ(mask.row(y)[x], map.offset(x, y) >= 0 ? 1 : 0);
+      whole = whole && map.offset(x, y) >= 0;
+      without += map.offset(x, y) < 0 ? 1 : 0;
+    }
+    EXPECT_EQ(mask.row_is_whole(y), whole);
+  }
+  EXPECT_GT(without, 0);
+}
+
 TEST(RectifyMap, TakesTheNearestNeighbour) {
   CameraCalibration c;
   c.camera = {{10, 1}, 20, 20, 4.4, 0};

@@ -84,13 +84,18 @@ std::vector<MatcherOptions> implementations_of(const MatcherOptions& options) {
   add(Implementation::kNaive, Isa::kAuto);
   if (options.cost != Cost::kSad) return all;  // the others know only this one
   add(Implementation::kSliding, Isa::kAuto);
-  for (const Isa isa : isas_that_run()) add(Implementation::kSimd, isa);
+  for (const Isa isa : isas_that_run()) {
+    for (const CacheUse cache : {CacheUse::kLarge, CacheUse::kSmall}) {
+      add(Implementation::kSimd, isa);
+      all.back().cache = cache;
+    }
+  }
   return all;
 }
 
 std::string describe(const MatcherOptions& o) {
   std::ostringstream text;
-  text << name_of(o.implementation) << "/" << name_of(o.isa) << " cost=" << name_of(o.cost)
+  text << name_of(o.implementation) << "/" << name_of(o.isa) << "/" << name_of(o.cache) << " cost=" << name_of(o.cost)
        << " min_disparity=" << o.min_disparity << " disparities=" << o.disparities << " window=" << o.window
        << " prefilter=" << name_of(o.prefilter) << " prefilter_cap=" << o.prefilter_cap
        << " subpixel=" << o.subpixel << " texture_threshold=" << o.texture_threshold

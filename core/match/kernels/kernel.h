@@ -16,11 +16,12 @@ inline constexpr int kRowMargin = 64;
 
 /// How the sums are calculated. A group is 8 disparities.
 enum class Arithmetic {
-  kPacked,  ///< |L−R| ≤ 126; 16-bit sums are cost·8 + number of the group in the chunk: the minimum tells both
-  kPackedHalves,  ///< the same with cost·4 + number of the group in its half of the chunk, a minimum for each half
-  kNarrow,        ///< |L−R| ≤ 126; 16-bit sums are costs, the winner is found by comparing with the minimum
-  kRaw,           ///< |L−R| ≤ 255; likewise
-  kWide,          ///< |L−R| ≤ 255; 32-bit sums, for windows whose cost does not fit in 16 bits
+  kPacked,  ///< |L−R| ≤ 126; 16-bit sums are cost·8 + number of the group in the chunk: the minimum tells
+            ///< both
+  kPackedHalves,  ///< the same with cost·4 + number of the group in its half of the chunk, a minimum for each
+                  ///< half
+  kRaw,   ///< |L−R| ≤ 255; 16-bit sums are costs, the winner is found by comparing with the minimum
+  kWide,  ///< |L−R| ≤ 255; 32-bit sums, for windows whose cost does not fit in 16 bits
 };
 
 /// What is fixed for a band. Column c of a row is image column min_disparity + c; in it the disparities
@@ -31,13 +32,14 @@ struct Shape {
   int min_disparity;
   int disparities;
   int window;
-  int chunk;  ///< disparities in a chunk, a multiple of the kernel's granularity, ≤ kMaxChunk (kWide: any)
+  int chunk;  ///< disparities in a chunk: what Kernel::chunk_for says
   int chunks;
   bool recompute;   ///< differences that leave the window are calculated again, not kept (never with kWide)
   bool neighbours;  ///< Winners::before and after are wanted
-  bool rival;       ///< Winners::rival is wanted
+  int uniqueness_ratio;  ///< %; 0: Winners::ambiguous is not wanted
   int columns() const { return width - min_disparity; }
   int padded_disparities() const { return chunk * chunks; }
+  bool padded() const { return padded_disparities() > disparities; }
   /// Bytes of a right row as Kernel::prepare_right_row writes it.
   int right_row_bytes() const { return 2 * (width + padded_disparities()) + kRowMargin; }
 };
@@ -55,7 +57,7 @@ struct Winners {
   std::uint32_t* cost;
   std::uint32_t* before;
   std::uint32_t* after;
-  std::uint32_t* rival;
+  std::uint8_t* ambiguous;
 };
 
 /// A row of both pictures as the kernels take it.
@@ -68,20 +70,26 @@ struct InputRow {
 struct RowChange {
   InputRow added;
   InputRow removed;  ///< only with Shape::recompute: the row that leaves, zeros while the window fills
-  /// Only without: |L−R| of the row that leaves, zeros while the window fills; becomes that of the row added.
-  /// 64-byte aligned, [chunk][column of the strip][k].
+  /// Only without: where |L−R| of the row added goes, and those of the row that leaves, zeros while the
+  /// window fills. 64-byte aligned, [chunk][column of the strip][k].
   std::uint8_t* differences;
+  const std::uint8_t* removed_differences;
 };
 
 /// Memory of one strip. 64-byte aligned.
 struct Scratch {
   std::uint16_t* column_sums;  ///< [chunk][window + column of the strip][k]; the first `window` stay zero
   std::uint16_t* block_sums;   ///< [kBlockColumns][padded_disparities], with 64 elements before and after
+  /// Ones for the disparities that a chunk has, zeros for those only there to fill it up, in the order in
+  /// which the chunk's bytes lie: [chunks][chunk], written by Kernel::fill_lane_masks; ignored where none are
+  /// filled up.
+  const std::uint8_t* lane_masks;
 };
 
 /// One instruction set's kernel. None of the functions needs alignment of image rows.
 struct Kernel {
-  int granularity;  ///< disparities in a byte vector; a chunk is a multiple of it
+  /// How many disparities a chunk has that holds at least `disparities` ≤ kMaxChunk of them.
+  int (*chunk_for)(int disparities);
 
   /// xsobel_row() of core/match/prefilter.h.
   void (*xsobel_row)(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width,
@@ -90,6 +98,9 @@ struct Kernel {
   /// Writes a right row backwards, so that growing disparity means growing address, in the order in which
   /// the kernel's widening of bytes to 16 bits leaves disparities in order.
   void (*prepare_right_row)(const Shape&, const std::uint8_t* right, std::uint8_t* out);
+
+  /// Writes Scratch::lane_masks.
+  void (*fill_lane_masks)(const Shape&, std::uint8_t* out);
 
   /// Adds a row to the column sums of a strip and subtracts the one that leaves.
   void (*add_row)(const Shape&, const Strip&, const RowChange&, const Scratch&);

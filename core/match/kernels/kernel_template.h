@@ -1,9 +1,10 @@
-// The one source of the block-matching kernels. Each kernel_<isa>.cpp compiles it for its instruction set, with
-// a vector layer V: V::Reg, V::kBytes and the operations of vector_scalar.h.
+// The one source of the block-matching kernels. Each kernel_<isa>.cpp compiles it for its instruction set,
+// with a vector layer V: V::Reg, V::kBytes and the operations of vector_scalar.h.
 //
 // This header and those it includes are compiled with instructions that the running CPU may lack. Nothing in
-// them may come from a header whose inline functions other files use too (the linker keeps one copy of those):
-// no std:: functions, and every function that is not a template of V says so with a Tag or is constexpr.
+// them may come from a header whose inline functions other files use too (the linker keeps one copy of
+// those): no std:: functions, and every function that is not a template of V says so with a Tag or is
+// constexpr.
 #pragma once
 
 #include "core/match/interpolation.h"
@@ -15,18 +16,24 @@
 
 namespace stereod::kernels {
 
-/// From the run-time values of a Shape to the functions compiled for them.
+/// From the run-time values of a Shape to the functions compiled for them. Chunks have 32, 48 (only with
+/// vectors of 16 bytes) or 64 disparities: every further size would make the program larger.
 template <typename V>
 class Dispatch {
+  static constexpr int kMinChunk = 32;
+
  public:
+  static int chunk_for(int disparities) {
+    const int rounded = (disparities + V::kBytes - 1) / V::kBytes * V::kBytes;
+    return rounded < kMinChunk ? kMinChunk : rounded;
+  }
+
   static void add_row(const Shape& shape, const Strip& strip, const RowChange& row, const Scratch& scratch) {
     switch (shape.arithmetic) {
       case Arithmetic::kPacked:
         return add<Arithmetic::kPacked>(shape, strip, row, scratch);
       case Arithmetic::kPackedHalves:
         return add<Arithmetic::kPackedHalves>(shape, strip, row, scratch);
-      case Arithmetic::kNarrow:
-        return add<Arithmetic::kNarrow>(shape, strip, row, scratch);
       case Arithmetic::kRaw:
         return add<Arithmetic::kRaw>(shape, strip, row, scratch);
       case Arithmetic::kWide:
@@ -41,8 +48,6 @@ class Dispatch {
         return search<Arithmetic::kPacked>(shape, strip, row, scratch, winners);
       case Arithmetic::kPackedHalves:
         return search<Arithmetic::kPackedHalves>(shape, strip, row, scratch, winners);
-      case Arithmetic::kNarrow:
-        return search<Arithmetic::kNarrow>(shape, strip, row, scratch, winners);
       case Arithmetic::kRaw:
         return search<Arithmetic::kRaw>(shape, strip, row, scratch, winners);
       case Arithmetic::kWide:
@@ -68,22 +73,15 @@ class Dispatch {
   static void search_by_size(const Shape& shape, const Strip& strip, const RowChange& row,
                              const Scratch& scratch, const Winners& out) {
     switch (shape.chunk / V::kBytes) {
-      case 1:
-        return BlockSearch<V, kA, kRecompute, 1>::row(shape, strip, row, scratch, out);
-      case 2:
-        return BlockSearch<V, kA, kRecompute, 2>::row(shape, strip, row, scratch, out);
-      case 3:
-        if constexpr (3 * V::kBytes <= kMaxChunk) {
+      case kMaxChunk / V::kBytes:
+        return BlockSearch<V, kA, kRecompute, kMaxChunk / V::kBytes>::row(shape, strip, row, scratch, out);
+      case 3:  // of vectors of 16 bytes
+        if constexpr (V::kBytes == 16) {
           return BlockSearch<V, kA, kRecompute, 3>::row(shape, strip, row, scratch, out);
         }
         break;
-      case 4:
-        if constexpr (4 * V::kBytes <= kMaxChunk) {
-          return BlockSearch<V, kA, kRecompute, 4>::row(shape, strip, row, scratch, out);
-        }
-        break;
       default:
-        break;
+        return BlockSearch<V, kA, kRecompute, kMinChunk / V::kBytes>::row(shape, strip, row, scratch, out);
     }
   }
 };
@@ -91,8 +89,8 @@ class Dispatch {
 /// The table entry of an instruction set.
 template <typename V>
 constexpr Kernel make_kernel() {
-  return {V::kBytes,           xsobel_row<V>,           RightRow<V>::prepare,
-          Dispatch<V>::add_row, Dispatch<V>::search_row, interpolate<float, V>};
+  return {Dispatch<V>::chunk_for, Xsobel<V>::row,          RightRow<V>::prepare, RightRow<V>::fill_masks,
+          Dispatch<V>::add_row,   Dispatch<V>::search_row, interpolate<float, V>};
 }
 
 }  // namespace stereod::kernels

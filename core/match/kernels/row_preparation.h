@@ -8,25 +8,35 @@
 
 namespace stereod::kernels {
 
-/// xsobel_row() of core/match/prefilter.h, which is this. A plain loop that each instruction set's compiler
-/// vectorises; Tag keeps their instantiations apart.
-template <typename Tag>
-void xsobel_row(const std::uint8_t* __restrict above, const std::uint8_t* __restrict row,
-                const std::uint8_t* __restrict below, int width, int cap, std::uint8_t* __restrict out) {
-  const auto limit = static_cast<std::int16_t>(cap);
-  const auto most = static_cast<std::int16_t>(2 * cap);
-  for (int x = 1; x < width - 1; ++x) {
-    const auto gradient = static_cast<std::int16_t>(
-        (above[x + 1] - above[x - 1]) + 2 * (row[x + 1] - row[x - 1]) + (below[x + 1] - below[x - 1]));
-    const auto raised = static_cast<std::int16_t>(gradient + limit);
-    const std::int16_t positive = raised > 0 ? raised : std::int16_t{0};
-    out[x] = static_cast<std::uint8_t>(positive < most ? positive : most);
+/// xsobel_row() of core/match/prefilter.h.
+template <typename V>
+class Xsobel {
+ public:
+  static void row(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width,
+                  int cap, std::uint8_t* out) {
+    const int last = width - 1;
+    int x = 1;
+    if (last - 1 >= V::kBytes) {
+      for (; x + V::kBytes <= last; x += V::kBytes) V::xsobel(above + x, row + x, below + x, cap, out + x);
+      x = last - V::kBytes;  // the rest, once more some of what is done already
+      V::xsobel(above + x, row + x, below + x, cap, out + x);
+    } else {
+      for (; x < last; ++x) out[x] = pixel(above + x, row + x, below + x, cap);
+    }
+    out[0] = static_cast<std::uint8_t>(cap);
+    out[last] = static_cast<std::uint8_t>(cap);
   }
-  out[0] = static_cast<std::uint8_t>(cap);
-  out[width - 1] = static_cast<std::uint8_t>(cap);
-}
 
-/// Kernel::prepare_right_row.
+ private:
+  static std::uint8_t pixel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below,
+                            int cap) {
+    const int gradient = (above[1] - above[-1]) + 2 * (row[1] - row[-1]) + (below[1] - below[-1]);
+    const int clipped = gradient < -cap ? -cap : gradient > cap ? cap : gradient;
+    return static_cast<std::uint8_t>(clipped + cap);
+  }
+};
+
+/// How the disparities of right rows lie: Kernel::prepare_right_row and Kernel::fill_lane_masks.
 template <typename V>
 class RightRow {
  public:
@@ -41,6 +51,16 @@ class RightRow {
     for (; p < shape.width; ++p) backwards[p] = right[shape.width - 1 - p];
     for (; p < length; ++p) backwards[p] = 0;
     if (interleaved) interleave(backwards, shape.chunk / 2, length, out);
+  }
+
+  static void fill_masks(const Shape& shape, std::uint8_t* out) {
+    const bool interleaved = even_odd_order<V>(shape.arithmetic);
+    for (int chunk = 0; chunk < shape.chunks; ++chunk) {
+      for (int i = 0; i < shape.chunk; ++i) {
+        const int k = interleaved ? i / 2 + i % 2 * (shape.chunk / 2) : i;
+        out[chunk * shape.chunk + i] = chunk * shape.chunk + k < shape.disparities ? 0xFF : 0;
+      }
+    }
   }
 
  private:

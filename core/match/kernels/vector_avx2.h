@@ -40,6 +40,7 @@ struct VectorAvx2 : BytesX86<2> {
     second = _mm256_add_epi16(second, _mm256_maddubs_epi16(_mm256_unpackhi_epi8(added, removed), factors));
   }
 
+  static Reg bit_and(Reg a, Reg b) { return _mm256_and_si256(a, b); }
   static Reg add16(Reg a, Reg b) { return _mm256_add_epi16(a, b); }
   static Reg sub16(Reg a, Reg b) { return _mm256_sub_epi16(a, b); }
   static Reg min16(Reg a, Reg b) { return _mm256_min_epu16(a, b); }
@@ -77,7 +78,42 @@ struct VectorAvx2 : BytesX86<2> {
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
   }
 
+  static std::uint32_t at_most(const std::uint16_t* sums, Reg limit) {
+    const Reg first = load_aligned(sums);
+    const Reg second = load_aligned(sums + 16);
+    const Reg bytes = _mm256_packs_epi16(_mm256_cmpeq_epi16(min16(first, limit), first),
+                                         _mm256_cmpeq_epi16(min16(second, limit), second));
+    return static_cast<unsigned>(
+        _mm256_movemask_epi8(_mm256_permute4x64_epi64(bytes, _MM_SHUFFLE(3, 1, 2, 0))));
+  }
+
+  // above + 2·row by one pmaddubsw, and below, of the pixels to the right less those to the left.
+  static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,
+                     std::uint8_t* out) {
+    const Reg above_right = load(above + 1), row_right = load(row + 1), below_right = load(below + 1);
+    const Reg above_left = load(above - 1), row_left = load(row - 1), below_left = load(below - 1);
+    const Reg lower =
+        gradient(_mm256_unpacklo_epi8(above_right, row_right), _mm256_unpacklo_epi8(above_left, row_left),
+                 _mm256_unpacklo_epi8(below_right, below_left), cap);
+    const Reg upper =
+        gradient(_mm256_unpackhi_epi8(above_right, row_right), _mm256_unpackhi_epi8(above_left, row_left),
+                 _mm256_unpackhi_epi8(below_right, below_left), cap);
+    const Reg most = broadcast8(static_cast<std::uint8_t>(2 * cap));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
+                        _mm256_min_epu8(_mm256_packus_epi16(lower, upper), most));
+  }
+
  private:
+  // From pairs of bytes, raised by the cap; packing will clip what is below 0.
+  static Reg gradient(Reg right, Reg left, Reg below, int cap) {
+    const Reg one_two = _mm256_set1_epi16(0x0201);
+    const Reg one_less_one = _mm256_set1_epi16(static_cast<short>(0xFF01));
+    const Reg upper_rows =
+        _mm256_sub_epi16(_mm256_maddubs_epi16(right, one_two), _mm256_maddubs_epi16(left, one_two));
+    return _mm256_add_epi16(_mm256_add_epi16(upper_rows, _mm256_maddubs_epi16(below, one_less_one)),
+                            broadcast16(static_cast<std::uint16_t>(cap)));
+  }
+
   // Which register holds the `position`-th group of 16 disparities of the chunk.
   template <int kVectors, bool kEvenOddOrder>
   static constexpr int register_of(int position) {

@@ -13,7 +13,9 @@ struct VectorNeon {
   static constexpr bool kEvenOdd = false;
   using Reg = uint16x8_t;
 
-  static Reg load(const void* p) { return vreinterpretq_u16_u8(vld1q_u8(static_cast<const std::uint8_t*>(p))); }
+  static Reg load(const void* p) {
+    return vreinterpretq_u16_u8(vld1q_u8(static_cast<const std::uint8_t*>(p)));
+  }
   static Reg load_aligned(const void* p) { return load(p); }
   static void store_aligned(void* p, Reg a) { vst1q_u8(static_cast<std::uint8_t*>(p), bytes(a)); }
   static Reg broadcast8(std::uint8_t value) { return vreinterpretq_u16_u8(vdupq_n_u8(value)); }
@@ -50,6 +52,7 @@ struct VectorNeon {
     second = vaddq_u16(second, vsubl_u8(vget_high_u8(bytes(added)), vget_high_u8(bytes(removed))));
   }
 
+  static Reg bit_and(Reg a, Reg b) { return vandq_u16(a, b); }
   static Reg add16(Reg a, Reg b) { return vaddq_u16(a, b); }
   static Reg sub16(Reg a, Reg b) { return vsubq_u16(a, b); }
   static Reg min16(Reg a, Reg b) { return vminq_u16(a, b); }
@@ -85,7 +88,37 @@ struct VectorNeon {
     return least_of(found);
   }
 
+  static std::uint32_t at_most(const std::uint16_t* sums, Reg limit) {
+    static constexpr std::uint8_t kBits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
+    const uint8x8_t weights = vld1_u8(kBits);
+    const uint8x8_t first = vand_u8(vmovn_u16(vcleq_u16(load(sums), limit)), weights);
+    const uint8x8_t second = vand_u8(vmovn_u16(vcleq_u16(load(sums + 8), limit)), weights);
+    uint8x8_t bits = vpadd_u8(first, second);
+    bits = vpadd_u8(bits, bits);
+    bits = vpadd_u8(bits, bits);
+    return vget_lane_u16(vreinterpret_u16_u8(bits), 0);
+  }
+
+  static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,
+                     std::uint8_t* out) {
+    const int16x8_t lower = gradient(above, row, below, cap);
+    const int16x8_t upper = gradient(above + 8, row + 8, below + 8, cap);
+    const uint8x16_t positive = vcombine_u8(vqmovun_s16(lower), vqmovun_s16(upper));
+    vst1q_u8(out, vminq_u8(positive, vdupq_n_u8(static_cast<std::uint8_t>(2 * cap))));
+  }
+
  private:
+  // Of eight pixels, raised by the cap.
+  static int16x8_t gradient(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below,
+                            int cap) {
+    const auto difference = [](const std::uint8_t* p) {
+      return vreinterpretq_s16_u16(vsubl_u8(vld1_u8(p + 1), vld1_u8(p - 1)));
+    };
+    const int16x8_t outer = vaddq_s16(difference(above), difference(below));
+    return vaddq_s16(vaddq_s16(outer, vshlq_n_s16(difference(row), 1)),
+                     vdupq_n_s16(static_cast<std::int16_t>(cap)));
+  }
+
   static uint8x16_t bytes(Reg a) { return vreinterpretq_u8_u16(a); }
 
   static std::uint16_t least_of(Reg a) {

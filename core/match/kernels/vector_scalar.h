@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 namespace stereod::kernels {
 
@@ -11,12 +12,14 @@ struct VectorScalar {
   static constexpr int kBytes = 16;
   /// Added to every 16-bit sum, modulo 65536, so that min16() may compare signed numbers.
   static constexpr std::uint16_t kBias = 0;
-  /// In which order the two halves that widening signed bytes leaves hold them: the even and the odd bytes, or
-  /// (false) the lower and the upper eight. Unsigned bytes always widen to lower and upper, except that
+  /// In which order the two halves that widening signed bytes leaves hold them: the even and the odd bytes,
+  /// or (false) the lower and the upper eight. Unsigned bytes always widen to lower and upper, except that
   /// vectors of 32 bytes do that in each half for itself.
   static constexpr bool kEvenOdd = false;
   using Reg [[gnu::vector_size(16)]] = std::uint16_t;
   using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
+  using SignedBytes [[gnu::vector_size(16)]] = std::int8_t;
+  using Signed [[gnu::vector_size(16)]] = std::int16_t;
 
   static Reg load(const void* p) {
     Reg a;
@@ -56,27 +59,24 @@ struct VectorScalar {
   }
   static Reg abs_diff_small(Reg a, Reg b) { return abs_diff_u8(a, b); }
 
-  /// Adds the bytes added − removed to 16-bit lanes: differences that fit in a signed byte, times 2^kShift, or
-  /// any.
+  /// Adds the bytes added − removed to 16-bit lanes: differences that fit in a signed byte, times 2^kShift,
+  /// or any.
   template <int kShift>
   static void change_small(Reg added, Reg removed, Reg& first, Reg& second) {
-    const Bytes change = reinterpret_cast<Bytes>(added) - reinterpret_cast<Bytes>(removed);
-    for (int i = 0; i < 8; ++i) {
-      first[i] = static_cast<std::uint16_t>(first[i] + static_cast<std::int8_t>(change[i]) * (1 << kShift));
-      second[i] =
-          static_cast<std::uint16_t>(second[i] + static_cast<std::int8_t>(change[i + 8]) * (1 << kShift));
-    }
+    const auto change =
+        reinterpret_cast<SignedBytes>(reinterpret_cast<Bytes>(added) - reinterpret_cast<Bytes>(removed));
+    first += reinterpret_cast<Reg>(widened<Signed>(change, 0) << kShift);
+    second += reinterpret_cast<Reg>(widened<Signed>(change, 8) << kShift);
   }
   static void change_any(Reg added, Reg removed, Reg& first, Reg& second) {
     const auto in = reinterpret_cast<Bytes>(added);
     const auto out = reinterpret_cast<Bytes>(removed);
-    for (int i = 0; i < 8; ++i) {
-      first[i] = static_cast<std::uint16_t>(first[i] + in[i] - out[i]);
-      second[i] = static_cast<std::uint16_t>(second[i] + in[i + 8] - out[i + 8]);
-    }
+    first += widened<Reg>(in, 0) - widened<Reg>(out, 0);
+    second += widened<Reg>(in, 8) - widened<Reg>(out, 8);
   }
 
   /// 16-bit lanes, modulo 65536; min16 of biased numbers.
+  static Reg bit_and(Reg a, Reg b) { return a & b; }
   static Reg add16(Reg a, Reg b) { return a + b; }
   static Reg sub16(Reg a, Reg b) { return a - b; }
   static Reg min16(Reg a, Reg b) { return a < b ? a : b; }
@@ -114,6 +114,37 @@ struct VectorScalar {
       if (sums[k / 8][k % 8] == wanted[0]) return static_cast<std::uint32_t>(k);
     }
     return 0;
+  }
+
+  /// A bit for each of kBytes biased numbers in memory, in order: is it at most the limit?
+  static std::uint32_t at_most(const std::uint16_t* sums, Reg limit) {
+    std::uint32_t bits = 0;
+    for (int k = 0; k < kBytes; ++k) bits |= static_cast<std::uint32_t>(sums[k] <= limit[0]) << k;
+    return bits;
+  }
+
+  /// xsobel_row() of kBytes pixels; the rows have a pixel more on either side.
+  static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,
+                     std::uint8_t* out) {
+    const auto limit = static_cast<std::int16_t>(cap);
+    const auto most = static_cast<std::int16_t>(2 * cap);
+    for (int x = 0; x < kBytes; ++x) {
+      const auto raised =
+          static_cast<std::int16_t>((above[x + 1] - above[x - 1]) + 2 * (row[x + 1] - row[x - 1]) +
+                                    (below[x + 1] - below[x - 1]) + limit);
+      const std::int16_t positive = raised > 0 ? raised : std::int16_t{0};
+      out[x] = static_cast<std::uint8_t>(positive < most ? positive : most);
+    }
+  }
+
+ private:
+  // Eight bytes of a vector, from byte `from` on, as 16 bits with the sign their type has.
+  template <typename Wide, typename Narrow>
+  static Wide widened(Narrow a, int from) {
+    using Half [[gnu::vector_size(8)]] = std::remove_reference_t<decltype(a[0])>;
+    Half half;
+    std::memcpy(&half, reinterpret_cast<const char*>(&a) + from, sizeof(half));
+    return __builtin_convertvector(half, Wide);
   }
 };
 

@@ -34,8 +34,8 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
   static void change_small(Reg added, Reg removed, Reg& first, Reg& second) {
     const Reg change = _mm_sub_epi8(added, removed);
     first = _mm_add_epi16(first, _mm_maddubs_epi16(_mm_set1_epi16(1 << kShift), change));
-    second = _mm_add_epi16(second,
-                           _mm_maddubs_epi16(_mm_set1_epi16(static_cast<short>(256 << kShift)), change));
+    second =
+        _mm_add_epi16(second, _mm_maddubs_epi16(_mm_set1_epi16(static_cast<short>(256 << kShift)), change));
   }
   static void change_any(Reg added, Reg removed, Reg& first, Reg& second) {
     const Reg factors = _mm_set1_epi16(static_cast<short>(0xFF01));
@@ -43,6 +43,7 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
     second = _mm_add_epi16(second, _mm_maddubs_epi16(_mm_unpackhi_epi8(added, removed), factors));
   }
 
+  static Reg bit_and(Reg a, Reg b) { return _mm_and_si128(a, b); }
   static Reg add16(Reg a, Reg b) { return _mm_add_epi16(a, b); }
   static Reg sub16(Reg a, Reg b) { return _mm_sub_epi16(a, b); }
   static Reg min16(Reg a, Reg b) {
@@ -88,7 +89,39 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
   }
 
+  static std::uint32_t at_most(const std::uint16_t* sums, Reg limit) {
+    const Reg first = load_aligned(sums);
+    const Reg second = load_aligned(sums + 8);
+    const Reg bytes = _mm_packs_epi16(_mm_cmpeq_epi16(min16(first, limit), first),
+                                      _mm_cmpeq_epi16(min16(second, limit), second));
+    return static_cast<unsigned>(_mm_movemask_epi8(bytes));
+  }
+
+  // above + 2·row by one pmaddubsw, and below, of the pixels to the right less those to the left.
+  static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,
+                     std::uint8_t* out) {
+    const Reg above_right = load(above + 1), row_right = load(row + 1), below_right = load(below + 1);
+    const Reg above_left = load(above - 1), row_left = load(row - 1), below_left = load(below - 1);
+    const Reg lower =
+        gradient(_mm_unpacklo_epi8(above_right, row_right), _mm_unpacklo_epi8(above_left, row_left),
+                 _mm_unpacklo_epi8(below_right, below_left), cap);
+    const Reg upper =
+        gradient(_mm_unpackhi_epi8(above_right, row_right), _mm_unpackhi_epi8(above_left, row_left),
+                 _mm_unpackhi_epi8(below_right, below_left), cap);
+    const Reg most = broadcast8(static_cast<std::uint8_t>(2 * cap));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_min_epu8(_mm_packus_epi16(lower, upper), most));
+  }
+
  private:
+  // From pairs of bytes, raised by the cap; packing will clip what is below 0.
+  static Reg gradient(Reg right, Reg left, Reg below, int cap) {
+    const Reg one_two = _mm_set1_epi16(0x0201);
+    const Reg one_less_one = _mm_set1_epi16(static_cast<short>(0xFF01));
+    const Reg upper_rows = _mm_sub_epi16(_mm_maddubs_epi16(right, one_two), _mm_maddubs_epi16(left, one_two));
+    return _mm_add_epi16(_mm_add_epi16(upper_rows, _mm_maddubs_epi16(below, one_less_one)),
+                         broadcast16(static_cast<std::uint16_t>(cap)));
+  }
+
   // Which register holds the `position`-th group of 8 disparities of the chunk.
   template <int kVectors, bool kEvenOddOrder>
   static constexpr int register_of(int position) {

@@ -1,5 +1,5 @@
-// The search for windows whose cost overflows 16 bits: the same method with 32-bit sums in plain loops over the
-// disparities, which the compiler vectorises.
+// The search for windows whose cost overflows 16 bits: the same method with 32-bit sums in plain loops over
+// the disparities, which the compiler vectorises.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +22,14 @@ class WideSearch {
     const std::ptrdiff_t back = static_cast<std::ptrdiff_t>(shape.window) * padded;
     std::uint16_t* sums = sums_of(shape, strip, scratch, 0, strip.first);
     std::uint8_t* differences = change.differences;
-    for (int column = strip.first; column < strip.end; ++column, sums += padded, differences += padded) {
+    const std::uint8_t* removed = change.removed_differences;
+    for (int column = strip.first; column < strip.end;
+         ++column, sums += padded, differences += padded, removed += padded) {
       const int left = change.added.left[column];
       const std::uint8_t* right = change.added.right + (shape.width - 1 - column);
       for (int k = 0; k < padded; ++k) {
         const int added = left > right[k] ? left - right[k] : right[k] - left;
-        sums[k] = static_cast<std::uint16_t>(sums[k] + added - differences[k]);
+        sums[k] = static_cast<std::uint16_t>(sums[k] + added - removed[k]);
         differences[k] = static_cast<std::uint8_t>(added);
       }
       if constexpr (kSearch) {
@@ -53,11 +55,12 @@ class WideSearch {
       out.before[at] = best > 0 ? costs[best - 1] : 0;
       out.after[at] = best + 1 < searched ? costs[best + 1] : 0;
     }
-    if (shape.rival) {
+    if (shape.uniqueness_ratio > 0) {
       std::uint32_t rival = 0xFFFFFFFFu;
       for (int k = 0; k < best - 1; ++k) rival = costs[k] < rival ? costs[k] : rival;
       for (int k = best + 2; k < searched; ++k) rival = costs[k] < rival ? costs[k] : rival;
-      out.rival[at] = rival;
+      const std::uint32_t limit = least + least * static_cast<std::uint32_t>(shape.uniqueness_ratio) / 100;
+      out.ambiguous[at] = rival <= limit ? 1 : 0;
     }
   }
 };

@@ -1,0 +1,30 @@
+// The settings in which the matcher is measured, and what OpenCV's StereoBM has to do for the same.
+#pragma once
+
+#include <opencv2/calib3d.hpp>
+#include <string>
+#include <vector>
+
+#include "core/match/matcher_options.h"
+#include "tests/bench/bench_images.h"
+
+namespace stereod::bench {
+
+struct MatcherCase {
+  std::string name;
+  MatPair pair;
+  MatcherOptions options;
+};
+
+/// Those of which the pictures are here; says on standard error which are not.
+std::vector<MatcherCase> speed_cases();
+
+/// Variations of one setting, whose times are to be near each other: odd numbers of disparities, wider
+/// windows. The first is the setting itself.
+std::vector<MatcherCase> odd_cases();
+
+/// StereoBM with the parameters of a case. It always has its prefilter, always answers in 1/16 px, and takes
+/// disparities in multiples of 16.
+cv::Ptr<cv::StereoBM> opencv_matcher(const MatcherOptions& options);
+
+}  // namespace stereod::bench
