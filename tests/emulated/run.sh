@@ -71,8 +71,9 @@ for row in "${table[@]}"; do
     built[$preset]=yes
   fi
   begin=$SECONDS
-  if STEREOD_EXPECTED_ISA=$isa "${emulate[@]}" "build/$preset/bin/test_core" \
-    --gtest_brief=1 --gtest_filter="$tests"; then
+  # qemu names every feature of the CPU that it cannot emulate; none of them is an instruction that is used here.
+  if STEREOD_EXPECTED_ISA=$isa "${emulate[@]}" "build/$preset/bin/test_core" --gtest_brief=1 \
+    --gtest_filter="$tests" 2>&1 | sed "/TCG doesn't support/d"; then
     echo "--- $name (${emulate[*]}): passed with kernel $isa in $((SECONDS - begin)) s"
     passed+=("$name")
   else
