@@ -12,7 +12,7 @@ table=(
   "penryn     core        qemu-x86_64,-cpu,Penryn                         sse41"
   "denverton  core        qemu-x86_64,-cpu,Denverton                      sse41"
   "haswell    core        qemu-x86_64,-cpu,Haswell                        avx2"
-  "n270       core-i386   qemu-i386,-cpu,n270,-L,/usr/i686-linux-gnu      ssse3"
+  "n270       core-i386   qemu-i386,-cpu,n270,-L,/usr/i686-linux-gnu,-E,LD_LIBRARY_PATH=/usr/i686-linux-gnu/lib ssse3"
   "arm64      core-arm64  qemu-aarch64,-L,/usr/aarch64-linux-gnu          neon"
   "armhf      core-armhf  qemu-arm,-L,/usr/arm-linux-gnueabihf            neon"
 )
