@@ -33,6 +33,7 @@ bool JpegLumaDecoder::decode(std::span<const std::uint8_t> jpeg, ImageView<std::
   if (tjDecompressHeader3(turbojpeg_, jpeg.data(), length, &width, &height, &subsampling, &colorspace) != 0 ||
       (colorspace != TJCS_YCbCr && colorspace != TJCS_GRAY)) {
     drop = FrameDrop::kJpegDamaged;
+    start_anew();
     return false;
   }
   if (Size{width, height} != luma.size()) {
