@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,6 +51,9 @@ class YamlSection {
   int required_integer(const std::string& key, int least, int most);
   std::string required_text(const std::string& key);
   std::vector<double> required_numbers(const std::string& key, std::size_t count);
+
+  /// The whole numbers of the map below `key`, by their names; empty if it is not there.
+  std::map<std::string, int> integers(const std::string& key);
 
   /// The map below `key`; an empty one if it is not there.
   YamlSection section(const std::string& key);

@@ -48,7 +48,7 @@ Pipeline::Pipeline(const Config& config, Rig rig, MessageBus& bus)
       size_(rig_.left->frame_size()),
       matcher_description_(describe(config)),
       publisher_(bus, wire_format(config), size_),
-      desk_(config.cameras.pairing_tolerance_ns()),
+      desk_(config.cameras.pairing_tolerance_ns(), config.cameras.max_skew_ms == 0),
       pool_(config.worker_count()) {
   for (int worker = 0; worker < pool_.workers(); ++worker) workers_.emplace_back(config.matcher, size_);
   if (config.matcher.speckle_size > 0) speckle_filter_.emplace(size_);
@@ -69,9 +69,9 @@ void Pipeline::stop() noexcept {
   desk_.clear();  // the leases end before their sources do
 }
 
-PipelineFigures Pipeline::take_figures() noexcept {
+PipelineFigures Pipeline::take_figures() {
   const auto camera = [](const CaptureThread& thread) {
-    return CameraFigures{thread.state(), thread.frames(), thread.sequence_gaps()};
+    return CameraFigures{thread.report(), thread.frames(), thread.sequence_gaps(), thread.mean_brightness()};
   };
   return {camera(*left_thread_), camera(*right_thread_), desk_.counts(), publisher_.take_figures()};
 }

@@ -21,9 +21,10 @@ namespace stereod {
 
 /// What one camera did since the start.
 struct CameraFigures {
-  SourceState state = SourceState::kWaiting;
+  SourceReport report;
   std::int64_t frames = 0;
   std::int64_t sequence_gaps = 0;
+  double mean_brightness = 0;  ///< of the latest frame, 0…255
 };
 
 /// What the pipeline did; see PublisherFigures for what "recent" means.
@@ -53,7 +54,7 @@ class Pipeline {
   /// True once the cameras have played to their end and everything is published.
   bool finished() const noexcept { return finished_; }
 
-  PipelineFigures take_figures() noexcept;
+  PipelineFigures take_figures();
 
   const Rig& rig() const { return rig_; }
   const Config& config() const { return config_; }
