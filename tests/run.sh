@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the tests need, builds, and runs them. With --all also: the formatting, core/ on its own, the address
-# and thread sanitizers, and the demo. Ends with one line that sums up.
+# and thread sanitizers, the demo, and webcams in a virtual machine. Ends with one line that sums up.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -83,6 +83,7 @@ if [[ ${1:-} == --all ]]; then
   suite address-sanitizer preset asan
   suite thread-sanitizer tsan_preset
   suite demo bash daemon/demo.sh
+  suite virtual-machine bash tests/vm/run.sh
 fi
 
 echo

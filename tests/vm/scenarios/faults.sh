@@ -1,0 +1,64 @@
+# shows: ten random faults in a row: each seen in the status, streaming after each, memory and descriptors unchanged
+# seconds: 300
+. /share/guest/lib.sh
+start_cameras
+webcam_config "serial:$left_serial" "serial:$right_serial" mjpeg | start_stereod
+need_streaming 60
+
+side_number() { if [[ $1 == left ]]; then echo 1; else echo 2; fi; }
+# A count of one camera in the latest status.
+count_of() { camera_row "$1" | tr -s ' ' | cut -d' ' -f"$(side_number "$2")"; }
+risen() { get_status && [[ $(count_of "$1" "$2") -gt $3 ]]; }
+
+# fault KIND SIDE: does it, and waits until the status shows it for what it is.
+fault() {
+  local kind=$1 side=$2 before
+  case $kind in
+    unplug)
+      tell "$side" unplug
+      wait_for 20 says '^  (state|reason) .*(absent|lost|unplugged)' || return 1
+      tell "$side" plug
+      ;;
+    freeze)
+      tell "$side" freeze
+      wait_for 20 says '^  (state|reason) .*(wedged|silent)' || return 1
+      tell "$side" thaw
+      ;;
+    error | truncate | empty)
+      get_status && before=$(count_of incomplete "$side")
+      [[ $kind != truncate ]] || before=$(count_of 'decode errors' "$side")
+      tell "$side" "$kind 20"
+      if [[ $kind == truncate ]]; then wait_for 20 risen 'decode errors' "$side" "$before"
+      else wait_for 20 risen incomplete "$side" "$before"; fi
+      ;;
+    corrupt | resize)
+      get_status && before=$(count_of 'decode errors' "$side")
+      tell "$side" "$kind 20"
+      wait_for 20 risen 'decode errors' "$side" "$before"
+      ;;
+  esac
+}
+
+# What opens and closes for the first time may allocate; that is not what is measured.
+fault unplug left && need_streaming 40
+fault unplug right && need_streaming 40
+base_descriptors=$(descriptors)
+base_memory=$(memory_kb)
+RANDOM=5
+# Each kind once and three more, in a random order.
+mapfile -t kinds < <(printf '%s\n' unplug freeze error truncate empty corrupt resize unplug freeze truncate |
+  while read -r kind; do echo "$RANDOM $kind"; done | sort -n | cut -d' ' -f2)
+for kind in "${kinds[@]}"; do
+  side=$([[ $((RANDOM % 2)) -eq 0 ]] && echo left || echo right)
+  echo "=== $kind $side"
+  fault "$kind" "$side" || { cat status.txt; tail -n 20 stereod.log; fail "the status does not show: $kind $side"; }
+  need_streaming 40 "after $kind $side both cameras should stream"
+  echo "descriptors $(descriptors), memory $(memory_kb) kB"
+  [[ $(descriptors) -eq $base_descriptors ]] || { ls -l "/proc/$stereod_pid/fd"; fail "descriptors: $base_descriptors before"; }
+done
+cat status.txt
+grown=$(($(memory_kb) - base_memory))
+shown "${kinds[*]}: descriptors $base_descriptors, memory $base_memory kB and $grown kB more"
+[[ $grown -lt 1024 ]] || fail "memory grew by $grown kB"
+stop_stereod
+cat stereod.log
