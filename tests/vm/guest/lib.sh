@@ -45,24 +45,10 @@ tell() {
   for side in $sides; do echo "$*" >"$side.pipe"; done
 }
 
-# Starts stereod with the configuration on stdin, in ./stereod.yaml.
+# Starts stereod, set up for two cameras and light enough for an emulated processor. Arguments: left and right device,
+# format, and further lines for cameras.v4l2. Its configuration is in ./stereod.yaml, its log in ./stereod.log.
 start_stereod() {
-  cat >stereod.yaml
-  stereod --config stereod.yaml >stereod.log 2>&1 &
-  stereod_pid=$!
-}
-
-stop_stereod() {
-  local status=0
-  kill -TERM "$stereod_pid"
-  wait "$stereod_pid" || status=$?
-  [[ $status -eq 0 ]] || fail "stereod ended with $status"
-}
-
-# A configuration for two webcams, light enough for an emulated processor. Arguments: left and right device, format, and
-# further lines for cameras.v4l2.
-webcam_config() {
-  cat <<CONFIG
+  cat >stereod.yaml <<CONFIG
 cameras:
   source: v4l2
   fps: ${fps:-30}
@@ -73,10 +59,19 @@ cameras:
     height: 480
     format: $3
     ${4:-align: never}
-matcher: { preset: fast, disparities: 16, min_disparity: 8 }
-workers: 2
+matcher: { preset: fast, disparities: 8, min_disparity: 8 }
+workers: 1
 lcm: { spread: 0.2, rows_per_message: 48 }
 CONFIG
+  stereod --config stereod.yaml >stereod.log 2>&1 &
+  stereod_pid=$!
+}
+
+stop_stereod() {
+  local status=0
+  kill -TERM "$stereod_pid"
+  wait "$stereod_pid" || status=$?
+  [[ $status -eq 0 ]] || fail "stereod ended with $status"
 }
 
 # The latest status, as a table, in ./status.txt.

@@ -2,7 +2,7 @@
 # seconds: 300
 . /share/guest/lib.sh
 start_cameras
-webcam_config "serial:$left_serial" "serial:$right_serial" mjpeg | start_stereod
+start_stereod "serial:$left_serial" "serial:$right_serial" mjpeg
 need_streaming 60
 
 side_number() { if [[ $1 == left ]]; then echo 1; else echo 2; fi; }

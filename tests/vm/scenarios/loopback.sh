@@ -6,7 +6,7 @@ udevadm settle
 mkdir pairs saved
 loopback-feed --left /dev/video10 --right /dev/video11 --pairs pairs --fps 4 &
 wait_for 20 test -e pairs/pair-7-right.pgm || fail "the feed has made no pairs"
-fps=10 webcam_config /dev/video10 /dev/video11 yuyv | start_stereod
+fps=10 start_stereod /dev/video10 /dev/video11 yuyv
 need_streaming 60
 stereo-tap save --frames 6 --out saved || fail "no frames were received"
 get_status

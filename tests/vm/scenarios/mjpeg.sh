@@ -2,7 +2,7 @@
 # seconds: 150
 . /share/guest/lib.sh
 start_cameras
-webcam_config "serial:$left_serial" "$(by_path 1)" mjpeg | start_stereod
+start_stereod "serial:$left_serial" "$(by_path 1)" mjpeg
 need_streaming 60
 stereod --list-cameras | tee cameras.txt
 for word in $left_serial $right_serial MJPG 640x480 platform-vhci_hcd exposure_time_absolute; do

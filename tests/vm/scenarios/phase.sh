@@ -5,9 +5,9 @@ modprobe vhci-hcd
 start_cameras
 tell left phase 0
 tell right phase 16000
-webcam_config "serial:$left_serial" "serial:$right_serial" mjpeg 'align: start
+start_stereod "serial:$left_serial" "serial:$right_serial" mjpeg 'align: start
     target_skew_ms: 3
-    align_tries: 12' | start_stereod
+    align_tries: 12'
 need_streaming 60
 settled() { says 'phase alignment +(aligned|given up|drifted)'; }
 wait_for 60 settled || { cat status.txt stereod.log; fail "the alignment comes to no end"; }

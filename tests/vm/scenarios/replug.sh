@@ -2,7 +2,7 @@
 # seconds: 240
 . /share/guest/lib.sh
 start_cameras
-webcam_config "$(by_path 0)" "$(by_path 1)" mjpeg | start_stereod
+start_stereod "$(by_path 0)" "$(by_path 1)" mjpeg
 need_streaming 60
 
 # The reason that the status gives for the left camera.
