@@ -2,9 +2,10 @@
 # Tests with a real kernel: Debian's kernel and systemd in a virtual machine, with webcams on uvcvideo. Each scenario
 # gets a freshly booted machine. Says what is skipped where QEMU or the packages cannot be had.
 #
-#   run.sh [--cpu MODEL] [--keep] [SCENARIO…]     all scenarios, if none is named
+#   run.sh [--cpu MODEL] [--bin FOLDER] [--keep] [SCENARIO…]     all scenarios, if none is named
 #
-# --cpu: a CPU model of QEMU, for example Denverton; --keep: keep the logs of scenarios that pass, too.
+# --cpu: a CPU model of QEMU, for example Denverton; --bin: take the programs from there instead of building them;
+# --keep: keep the logs of scenarios that pass, too.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 here=tests/vm
@@ -57,12 +58,14 @@ done
 
 cpu=
 keep=
+built=
 scenarios=()
 while [[ $# -gt 0 ]]; do
   case $1 in
     --cpu) cpu=${2:?--cpu wants a model} && shift ;;
+    --bin) bin=${2:?--bin wants a folder} built=yes && shift ;;
     --keep) keep=yes ;;
-    -*) die "usage: tests/vm/run.sh [--cpu MODEL] [--keep] [SCENARIO…]" ;;
+    -*) die "usage: tests/vm/run.sh [--cpu MODEL] [--bin FOLDER] [--keep] [SCENARIO…]" ;;
     *) scenarios+=("$1") ;;
   esac
   shift
@@ -81,7 +84,7 @@ if [[ $prepared -eq 3 ]]; then
   exit 0
 fi
 [[ $prepared -eq 0 ]] || die "the image could not be made."
-build || die "the programs could not be built."
+[[ -n $built ]] || build || die "the programs could not be built."
 
 failed=()
 for name in "${scenarios[@]}"; do
