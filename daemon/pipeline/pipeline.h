@@ -16,6 +16,7 @@
 #include "daemon/pipeline/capture_thread.h"
 #include "daemon/pipeline/frame_publisher.h"
 #include "daemon/pipeline/pairing_desk.h"
+#include "daemon/pipeline/raw_publisher.h"
 
 namespace stereod {
 
@@ -77,6 +78,7 @@ class Pipeline {
   WorkerPool pool_;
   std::vector<BandWorker> workers_;
   std::optional<SpeckleFilter> speckle_filter_;
+  std::optional<RawPublisher> raw_publisher_;
   std::optional<RectifyMap> left_map_, right_map_;
   std::int64_t next_frame_ = 0;
   std::atomic<bool> stopping_{false};

@@ -22,6 +22,10 @@ std::string missing_cameras(const Activity& activity) {
   return "no frames from either camera";
 }
 
+void add_reason(std::string& reason, const SourceReport& camera) {
+  if (!camera.reason.empty()) reason += "; " + camera.reason.substr(0, kLongestText);
+}
+
 // A second, or two and a half frames of a slow camera.
 std::int64_t patience_for(double fps) {
   constexpr double kSecond = 1e9;
@@ -76,13 +80,19 @@ void StatusReporter::report() {
   const ServiceState state = std::exchange(first_, false)
                                  ? ServiceState{"starting", "waiting for the first frames"}
                                  : judge_state(activity, calibrated);
-  if (state.name != status_.state || state.reason != status_.reason) {
+  if (state.name != logged_.name || state.reason != logged_.reason) {
     spdlog::info("state: {}{}{}", state.name, state.reason.empty() ? "" : ": ", state.reason);
+    logged_ = state;
   }
 
   status_.utime = wall_us();
   status_.state = state.name;
   status_.reason = state.reason;
+  // The cameras have logged their own reasons.
+  if (state.name == "waiting_for_cameras") {
+    if (!activity.left_frames) add_reason(status_.reason, now.left.report);
+    if (!activity.right_frames) add_reason(status_.reason, now.right.report);
+  }
   status_.uptime_s = static_cast<double>(now_ns - started_ns_) * 1e-9;
   status_.fps_in = static_cast<double>(now.pairing.pairs - before_.pairing.pairs) / seconds;
   status_.fps_out = static_cast<double>(now.published.frames - before_.published.frames) / seconds;

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <span>
 #include <string_view>
 
 #include "daemon/capture/frame_source.h"
@@ -33,8 +33,6 @@ const PixelFormat* find_pixel_format(std::uint32_t pixels);
 const PixelFormat* find_pixel_format(std::string_view name);
 /// All of them, what puts the least on the bus first, compressed formats last.
 std::span<const PixelFormat> pixel_formats();
-/// Their names, for messages: "grey, nv12, …".
-constexpr std::string_view kPixelFormatNames = "grey, nv12, yu12, yuyv, uyvy, y10, y16 and mjpeg";
 
 /// Bytes from row to row. Some drivers say 0 and mean no padding.
 std::size_t row_stride(const PixelFormat& format, const DeviceFormat& device);

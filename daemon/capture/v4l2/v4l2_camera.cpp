@@ -226,18 +226,13 @@ std::int64_t V4l2Camera::patience_ns() const noexcept {
 
 void V4l2Camera::check_silence(std::int64_t now_ns) {
   if (now_ns - last_good_ns_ < patience_ns()) return;
-  const double seconds = static_cast<double>(now_ns - last_good_ns_) * 1e-9;
   const std::int64_t damaged = stream_.buffers_seen() - buffers_at_last_good_;
-  CameraFault fault{CameraReason::kSilent, CameraStep::kWait, 0, ""};
-  char text[96];
+  CameraFault fault{CameraReason::kSilent, CameraStep::kWait, 0,
+                    node_ + " has fallen silent; it is set up again until frames come"};
   if (damaged > 0) {
     fault.reason = CameraReason::kOnlyDamaged;
-    std::snprintf(text, sizeof text, "the last %lld frames were all damaged; ",
-                  static_cast<long long>(damaged));
-    fault.sentence = node_ + ": " + text + "check its cable, or set cameras.v4l2.format";
+    fault.sentence = node_ + " sends only damaged frames; check its cable, or set cameras.v4l2.format";
   } else {
-    std::snprintf(text, sizeof text, "no frame for %.1f s; ", seconds);
-    fault.sentence = node_ + ": " + text + "it is set up again until one comes";
     // A bus that is full may also show itself by frames that never come.
     const bool starved = !had_frame_ && pair_->other_flows_on_same_bus(side_);
     silent_starts_ = starved ? silent_starts_ + 1 : 0;
