@@ -41,7 +41,7 @@ run_scenario() {
     -accel tcg,thread=multi -cpu "${model:-qemu64,+ssse3,+sse4.1,+sse4.2,+popcnt}" -smp 2 -m 1024 -M q35 \
     -nodefaults -display none -no-reboot -serial "file:$share/serial.log" \
     -kernel "$image/vmlinuz" -initrd "$image/initrd.gz" \
-    -append "console=ttyS0 quiet loglevel=4 panic=-1 mitigations=off nokaslr root=/dev/vda $masks" \
+    -append "console=ttyS0 quiet loglevel=4 panic=-1 mitigations=off nokaslr root=/dev/vda $kernel_options" \
     -drive "file=$image/rootfs.ext4,if=virtio,format=raw,snapshot=on" \
     -virtfs "local,path=$share,mount_tag=share,security_model=none,id=share" \
     -device virtio-rng-pci >"$share/qemu.log" 2>&1 </dev/null || true
@@ -49,11 +49,12 @@ run_scenario() {
   [[ $(cat "$share/status" 2>/dev/null) == 0 ]]
 }
 
-# What makes booting slower and is of no use here.
-masks="systemd.show_status=0 random.trust_cpu=on"
+# Cameras on the virtual USB controller sometimes do not wake up from autosuspend. The rest makes booting slower and is of
+# no use here.
+kernel_options="usbcore.autosuspend=-1 systemd.show_status=0 random.trust_cpu=on"
 for unit in apt-daily.timer apt-daily-upgrade.timer dpkg-db-backup.timer e2scrub_all.timer e2scrub_reap.service \
   fstrim.timer getty.target serial-getty@ttyS0.service systemd-binfmt.service; do
-  masks+=" systemd.mask=$unit"
+  kernel_options+=" systemd.mask=$unit"
 done
 
 cpu=
