@@ -79,6 +79,11 @@ get_status() { stereo-tap status --once --timeout 8 >status.txt 2>status.err; }
 
 # A row of the status table of both cameras: the left and the right value.
 camera_row() { sed -n "s/^  $1  *//p" status.txt | head -n 1; }
+# A row of that table with the lines it goes on in, as one line.
+whole_row() {
+  awk -v label="  $1 " 'index($0, label) == 1 { on = 1; print; next } /^ ? ?[^ ]|^$/ { on = 0 } on' status.txt |
+    tr -s ' \n' ' '
+}
 # One number behind a label of the table.
 number_of() { sed -n "s/.*$1  *\([0-9][0-9.]*\).*/\1/p" status.txt | head -n 1; }
 
