@@ -46,8 +46,9 @@ tell() {
 }
 
 # Starts stereod, set up for two cameras and light enough for an emulated processor. Arguments: left and right device,
-# format, and further lines for cameras.v4l2. Its configuration is in ./stereod.yaml, its log in ./stereod.log.
+# format, and further lines for cameras.v4l2; fps and size from variables. Its configuration is in ./stereod.yaml, its log in ./stereod.log.
 start_stereod() {
+  local size=${size:-640x480}
   cat >stereod.yaml <<CONFIG
 cameras:
   source: v4l2
@@ -55,8 +56,8 @@ cameras:
   v4l2:
     left: $1
     right: $2
-    width: 640
-    height: 480
+    width: ${size%x*}
+    height: ${size#*x}
     format: $3
     ${4:-align: never}
 matcher: { preset: fast, disparities: 8, min_disparity: 8 }

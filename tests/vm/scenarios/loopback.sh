@@ -1,10 +1,12 @@
 # shows: YUYV through v4l2loopback: rows byte-identical to stereo-match on the same pairs
 # seconds: 120
 . /share/guest/lib.sh
-modprobe v4l2loopback devices=2 video_nr=10,11 exclusive_caps=1,1
+# The module has two buffers unless told otherwise, and writes into the one that a reader still holds: enough of them, and
+# a rate at which none comes round again while it is being matched.
+modprobe v4l2loopback devices=2 video_nr=10,11 exclusive_caps=1,1 max_buffers=8
 udevadm settle
 mkdir pairs saved
-loopback-feed --left /dev/video10 --right /dev/video11 --pairs pairs --fps 4 &
+loopback-feed --left /dev/video10 --right /dev/video11 --pairs pairs --fps 2 &
 wait_for 20 test -e pairs/pair-7-right.pgm || fail "the feed has made no pairs"
 fps=10 start_stereod /dev/video10 /dev/video11 yuyv
 need_streaming 60
