@@ -27,10 +27,10 @@ by_id() { echo "/dev/v4l/by-id/usb-uvcsim_UVC_Sim_Camera_$1-video-index0"; }
 # Port N of the virtual USB controller, from 0.
 by_path() { echo "/dev/v4l/by-path/platform-vhci_hcd.0-usb-0:$(($1 + 1)):1.0-video-index0"; }
 
-# Two webcams, the left one at port 0 and the right one at port 1.
+# Two webcams, the left one at port 0 and the right one at port 1. Arguments: for uvcvideo.
 start_cameras() {
   modprobe vhci-hcd
-  modprobe uvcvideo
+  modprobe uvcvideo "$@"
   uvcsim --port 0 --serial "$left_serial" --control left.pipe &
   uvcsim --port 1 --serial "$right_serial" --right --control right.pipe &
   wait_for 30 test -e "$(by_id $left_serial)" || fail "the left camera did not appear"
@@ -99,4 +99,4 @@ need_streaming() {
 }
 
 descriptors() { find "/proc/$stereod_pid/fd" -mindepth 1 | wc -l; }
-memory_kb() { sed -n 's/^VmRSS: *\([0-9]*\) kB/\1/p' "/proc/$stereod_pid/status"; }
+memory_kb() { awk '/^VmRSS:/ { print $2 }' "/proc/$stereod_pid/status"; }

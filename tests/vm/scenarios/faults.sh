@@ -1,7 +1,8 @@
 # shows: ten random faults in a row: each seen in the status, streaming after each, memory and descriptors unchanged
 # seconds: 300
 . /share/guest/lib.sh
-start_cameras
+# By itself uvcvideo keeps damaged frames back, and there is nothing to see but a gap in the sequence.
+start_cameras nodrop=1
 start_stereod "serial:$left_serial" "serial:$right_serial" mjpeg
 need_streaming 60
 
@@ -24,14 +25,12 @@ fault() {
       wait_for 20 says '^  (state|reason) .*(wedged|silent)' || return 1
       tell "$side" thaw
       ;;
-    error | truncate | empty)
+    error)
       get_status && before=$(count_of incomplete "$side")
-      [[ $kind != truncate ]] || before=$(count_of 'decode errors' "$side")
       tell "$side" "$kind 20"
-      if [[ $kind == truncate ]]; then wait_for 20 risen 'decode errors' "$side" "$before"
-      else wait_for 20 risen incomplete "$side" "$before"; fi
+      wait_for 20 risen incomplete "$side" "$before"
       ;;
-    corrupt | resize)
+    truncate | corrupt | resize)
       get_status && before=$(count_of 'decode errors' "$side")
       tell "$side" "$kind 20"
       wait_for 20 risen 'decode errors' "$side" "$before"
@@ -45,8 +44,8 @@ fault unplug right && need_streaming 40
 base_descriptors=$(descriptors)
 base_memory=$(memory_kb)
 RANDOM=5
-# Each kind once and three more, in a random order.
-mapfile -t kinds < <(printf '%s\n' unplug freeze error truncate empty corrupt resize unplug freeze truncate |
+# Each kind once or twice, in a random order.
+mapfile -t kinds < <(printf '%s\n' unplug freeze error truncate corrupt resize unplug freeze truncate error |
   while read -r kind; do echo "$RANDOM $kind"; done | sort -n | cut -d' ' -f2)
 for kind in "${kinds[@]}"; do
   side=$([[ $((RANDOM % 2)) -eq 0 ]] && echo left || echo right)

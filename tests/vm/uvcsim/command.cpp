@@ -14,7 +14,7 @@ struct Word {
   Number number;
 };
 
-constexpr std::array<Word, 14> kWords{{{"unplug", Verb::kUnplug, Number::kNone},
+constexpr std::array<Word, 13> kWords{{{"unplug", Verb::kUnplug, Number::kNone},
                                        {"plug", Verb::kPlug, Number::kOptional},
                                        {"freeze", Verb::kFreeze, Number::kNone},
                                        {"thaw", Verb::kThaw, Number::kNone},
@@ -23,7 +23,6 @@ constexpr std::array<Word, 14> kWords{{{"unplug", Verb::kUnplug, Number::kNone},
                                        {"truncate", Verb::kTruncate, Number::kNeeded},
                                        {"corrupt", Verb::kCorrupt, Number::kNeeded},
                                        {"resize", Verb::kResize, Number::kNeeded},
-                                       {"empty", Verb::kEmpty, Number::kNeeded},
                                        {"phase", Verb::kPhase, Number::kNeeded},
                                        {"drift", Verb::kDrift, Number::kNeeded},
                                        {"light", Verb::kLight, Number::kNeeded},

@@ -17,7 +17,6 @@ enum class Verb {
   kTruncate,  ///< N pictures cut off in the middle
   kCorrupt,   ///< N JPEGs with rubbish in the middle
   kResize,    ///< N JPEGs that say another height than was agreed
-  kEmpty,     ///< N frames without a byte of picture
   kPhase,     ///< µs: where in the frame time the next stream begins
   kDrift,     ///< parts in a million that frames come too late
   kLight,     ///< % of the light

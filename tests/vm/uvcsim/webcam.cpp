@@ -55,7 +55,6 @@ bool Webcam::obey(const Command& command) {
     case Verb::kTruncate:
     case Verb::kCorrupt:
     case Verb::kResize:
-    case Verb::kEmpty:
       damage_ = {command.verb, *command.number};
       break;
     case Verb::kPhase:
@@ -192,7 +191,6 @@ void Webcam::begin_frame() {
     if (damage_.kind == Verb::kTruncate) picture_.resize(picture_.size() / 2);
     if (damage_.kind == Verb::kCorrupt) corrupt_jpeg(picture_);
     if (damage_.kind == Verb::kResize) change_jpeg_height(picture_, 16);
-    if (damage_.kind == Verb::kEmpty) picture_.clear();
   }
   sent_ = 0;
   sending_ = true;
