@@ -46,9 +46,9 @@ base_memory=$(memory_kb)
 RANDOM=5
 # Each kind once or twice, in a random order.
 mapfile -t kinds < <(printf '%s\n' unplug freeze error truncate corrupt resize unplug freeze truncate error |
-  while read -r kind; do echo "$RANDOM $kind"; done | sort -n | cut -d' ' -f2)
+  shuf --random-source=<(yes 5))
 for kind in "${kinds[@]}"; do
-  side=$([[ $((RANDOM % 2)) -eq 0 ]] && echo left || echo right)
+  if ((RANDOM % 2)); then side=left; else side=right; fi
   echo "=== $kind $side"
   fault "$kind" "$side" || { cat status.txt; tail -n 20 stereod.log; fail "the status does not show: $kind $side"; }
   need_streaming 40 "after $kind $side both cameras should stream"
