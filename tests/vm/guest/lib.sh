@@ -46,7 +46,7 @@ tell() {
 }
 
 # Starts stereod, set up for two cameras and light enough for an emulated processor. Arguments: left and right device,
-# format, and further lines for cameras.v4l2; fps and size from variables. Its configuration is in ./stereod.yaml, its log in ./stereod.log.
+# format, and further lines for cameras.v4l2; fps, size and matcher from variables. Its configuration is in ./stereod.yaml, its log in ./stereod.log.
 start_stereod() {
   local size=${size:-640x480}
   cat >stereod.yaml <<CONFIG
@@ -60,7 +60,7 @@ cameras:
     height: ${size#*x}
     format: $3
     ${4:-align: never}
-matcher: { preset: fast, disparities: 8, min_disparity: 8 }
+matcher: { ${matcher:-preset: fast, disparities: 8, min_disparity: 8} }
 workers: 1
 lcm: { spread: 0.2, rows_per_message: 48 }
 CONFIG

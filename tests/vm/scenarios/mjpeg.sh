@@ -2,11 +2,13 @@
 # seconds: 150
 . /share/guest/lib.sh
 start_cameras
+# Two streams at full rate are what an emulated processor can just do: little matching beside them.
+matcher='preset: fast, disparities: 2, min_disparity: 8, window: 5, prefilter: none, median: 0'
 start_stereod "serial:$left_serial" "$(by_path 1)" mjpeg
 need_streaming 60
 stereod --list-cameras | tee cameras.txt
-for word in $left_serial $right_serial MJPG 640x480 platform-vhci_hcd exposure_time_absolute; do
-  grep -qi -e "${word/x/[x×]}" cameras.txt || fail "--list-cameras does not name $word"
+for word in $left_serial $right_serial mjpeg yuyv 640 platform-vhci_hcd exposure_time_absolute; do
+  grep -q "$word" cameras.txt || fail "--list-cameras does not name $word"
 done
 
 get_status
