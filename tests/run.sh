@@ -89,6 +89,7 @@ if [[ ${1:-} == --all ]]; then
   suite thread-sanitizer tsan_preset
   suite emulated-cpus emulated_cpus
   suite demo bash daemon/demo.sh
+  suite virtual-machine bash tests/vm/run.sh
 fi
 
 echo
