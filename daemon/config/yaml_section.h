@@ -49,7 +49,8 @@ class YamlSection {
   double required_number(const std::string& key, double least, double most);
   int required_integer(const std::string& key, int least, int most);
   std::string required_text(const std::string& key);
-  std::vector<double> required_numbers(const std::string& key, std::size_t count);
+  /// A list of as many numbers as one of `counts` says.
+  std::vector<double> required_numbers(const std::string& key, const std::vector<std::size_t>& counts);
 
   /// The map below `key`; an empty one if it is not there.
   YamlSection section(const std::string& key);
