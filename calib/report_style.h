@@ -57,9 +57,10 @@ footer { color:var(--quiet); font-size:13px; margin-top:16px; text-align:center;
 )css";
 
 /// The pattern of cells that saw nothing.
-inline constexpr std::string_view kHatching =
-    R"(<svg width="0" height="0" style="position:absolute"><defs><pattern id="hatching" width="14" height="14" )"
-    R"(patternUnits="userSpaceOnUse" patternTransform="rotate(45)"><rect width="14" height="14" fill="#fff"/>)"
-    R"(<rect width="5" height="14" fill="#e9ecef"/></pattern></defs></svg>)";
+inline constexpr std::string_view kHatching = R"svg(
+<svg width="0" height="0" style="position:absolute"><defs>
+<pattern id="hatching" width="14" height="14" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
+<rect width="14" height="14" fill="#fff"/><rect width="5" height="14" fill="#e2e6ea"/></pattern></defs></svg>
+)svg";
 
 }  // namespace stereod
