@@ -38,12 +38,14 @@ bool find(const cv::Mat& image, const Board& board, Effort effort, Points& point
     return cv::findChessboardCorners(image, pattern, points, flags | cv::CALIB_CB_FAST_CHECK);
   }
   if (cv::findChessboardCorners(image, pattern, points, flags)) return true;
-  return cv::findChessboardCornersSB(image, pattern, points,
-                                     cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_EXHAUSTIVE);
+  return cv::findChessboardCornersSB(image, pattern, points, cv::CALIB_CB_NORMALIZE_IMAGE);
 }
 
 double edge_width(const cv::Mat& image, const Board& board, const Points& points) {
-  return cv::estimateChessboardSharpness(image, {board.columns, board.rows}, points)[0];
+  constexpr float kRise = 0.8F;  // from 10 % to 90 %
+  const cv::Size pattern(board.columns, board.rows);
+  return std::max(cv::estimateChessboardSharpness(image, pattern, points, kRise, false)[0],
+                  cv::estimateChessboardSharpness(image, pattern, points, kRise, true)[0]);
 }
 
 }  // namespace

@@ -77,10 +77,19 @@ bool same_size(const Board& a, const Board& b) {
   return std::minmax(a.columns, a.rows) == std::minmax(b.columns, b.rows);
 }
 
-[[noreturn]] void refuse(const Board& wanted, const Board& seen, const char* how) {
-  throw CalibrationError("the pictures show " + std::string(how) + in_words(seen) + ", not " +
-                         in_words(wanted) + "; say --board " + std::to_string(seen.columns) + "x" +
-                         std::to_string(seen.rows) + " (inner corners are those where four squares meet)");
+// Before the long search: is it this board? One that is larger is found as well, less its edge; one that
+// seems smaller may be partly hidden in just these pictures.
+void require_size(const std::vector<PicturePair>& pictures, const Board& board) {
+  const auto there = board_in(pictures);
+  if (!there || same_size(*there, board)) return;
+  if (there->columns * there->rows <= board.columns * board.rows) {
+    for (const std::size_t place : evenly_spread(std::min(kSamples, pictures.size()), pictures.size())) {
+      if (find_board(pictures[place].left.view(), board, Effort::kThorough)) return;
+    }
+  }
+  throw CalibrationError("the pictures show a board of " + in_words(*there) + ", not " + in_words(board) +
+                         "; say --board " + std::to_string(there->columns) + "x" +
+                         std::to_string(there->rows) + " (inner corners are those where four squares meet)");
 }
 
 }  // namespace
@@ -93,6 +102,7 @@ Board guess_board(const std::vector<PicturePair>& pictures) {
 }
 
 std::vector<PairSearch> search_boards(const std::vector<PicturePair>& pictures, const Board& board) {
+  require_size(pictures, board);
   std::vector<PairSearch> results(pictures.size());
   {
     std::mutex mutex;
@@ -106,12 +116,6 @@ std::vector<PairSearch> search_boards(const std::vector<PicturePair>& pictures, 
   const bool found = std::any_of(results.begin(), results.end(), [](const PairSearch& r) {
     return !r.corners.left.empty() || !r.corners.right.empty();
   });
-  // A board that is larger than asked for is found as well, less its edge.
-  const auto there = board_in(pictures);
-  if (there && !same_size(*there, board)) {
-    const bool larger = there->columns * there->rows > board.columns * board.rows;
-    if (!found || larger) refuse(board, *there, "a board of ");
-  }
   if (!found) {
     throw CalibrationError("no board with " + in_words(board) +
                            " was found in any picture, nor one of another size; the whole board with its "

@@ -21,8 +21,8 @@ struct PairSearch {
 /// The board that most of some pictures show. Throws CalibrationError if none shows any.
 Board guess_board(const std::vector<PicturePair>& pictures);
 
-/// Looks for `board` in every picture, on all CPUs. Throws CalibrationError if no pair shows it, naming the
-/// size that is there instead if there is one, and if the board there is larger than `board`.
+/// Looks for `board` in every picture, on all CPUs. Throws CalibrationError if no picture shows it, or if
+/// some pictures, looked at first, show a board of another size, which it names.
 std::vector<PairSearch> search_boards(const std::vector<PicturePair>& pictures, const Board& board);
 
 }  // namespace stereod

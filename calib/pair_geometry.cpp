@@ -114,14 +114,15 @@ BoardPose least_squares(const ErrorsAt& errors_at, BoardPose pose, double reach)
   return pose;
 }
 
-// Triangulates; false for what is not in front of the cameras.
-bool point_of(const Calibration& c, Point2 left, Point2 right, Vector3& p) {
+// Triangulates; NaN where that is impossible.
+Vector3 point_of(const Calibration& c, Point2 in_left, Point2 in_right) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const auto left = rectified_point(c.left, in_left), right = rectified_point(c.right, in_right);
+  if (!left || !right) return {kNone, kNone, kNone};
   const RectifiedProjection& projection = c.left.projection;
-  const double z = depth_m(c, left.x - right.x);
-  if (!std::isfinite(z)) return false;
-  p = {(left.x - projection.cx) / projection.fx * z,
-       ((left.y + right.y) / 2 - projection.cy) / projection.fy * z, z};
-  return true;
+  const double z = depth_m(c, left->x - right->x);
+  return {(left->x - projection.cx) / projection.fx * z,
+          ((left->y + right->y) / 2 - projection.cy) / projection.fy * z, z};
 }
 
 }  // namespace
@@ -163,18 +164,16 @@ double pair_error_px(const StereoCameras& cameras, const Board& board, const Boa
 
 PairCheck check_pair(const Calibration& calibration, const Board& board, const BoardPair& pair,
                      const BoardPose& in_left) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
   PairCheck check;
-  const std::size_t count = pair.left.size();
   const auto columns = static_cast<std::size_t>(board.columns);
-  std::vector<Vector3> points(count);
-  double squares = 0, rows = 0, offset = 0;
+  const std::size_t count = pair.left.size();
+  double squares = 0, rows = 0, offset = 0, n = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const auto left = rectified_point(calibration.left, pair.left[i]);
     const auto right = rectified_point(calibration.right, pair.right[i]);
-    if (!left || !right || !point_of(calibration, *left, *right, points[i])) {
-      const double worst = std::numeric_limits<double>::infinity();
-      return {worst, worst, worst, worst};
-    }
+    if (!left || !right) continue;  // the lens model breaks down here
+    n += 1;
     rows += std::abs(left->y - right->y);
     offset += left->y - right->y;
     const Vector3 p =
@@ -182,15 +181,19 @@ PairCheck check_pair(const Calibration& calibration, const Board& board, const B
     const double error = left->x - right->x - disparity_at(calibration, p.z);
     squares += error * error;
   }
-  const auto n = static_cast<double>(count);
+  if (n < 0.9 * static_cast<double>(count)) return {kNone, kNone, kNone, kNone};
   check.row_error_px = rows / n;
   check.row_offset_px = offset / n;
   check.disparity_error_px = std::sqrt(squares / n);
   // Both diagonals: the longest lengths that the board has, so noise weighs least.
-  const double measured = length(minus(points[count - 1], points[0])) +
-                          length(minus(points[count - columns], points[columns - 1]));
+  const auto measured = [&](std::size_t from, std::size_t to) {
+    const Vector3 a = point_of(calibration, pair.left[from], pair.right[from]);
+    return length(minus(point_of(calibration, pair.left[to], pair.right[to]), a));
+  };
   const double truth = 2 * length(board_point(board, count - 1));
-  check.scale_error = measured / truth - 1;
+  check.scale_error = (measured(0, count - 1) + measured(columns - 1, count - columns)) / truth - 1;
+  // A corner that cannot be measured says nothing about the size.
+  if (!std::isfinite(check.scale_error)) check.scale_error = 0;
   return check;
 }
 

@@ -85,7 +85,7 @@ std::string depth_chart(const Calibration& calibration, const DepthErrorSources&
   }
   for (const double depth : kReportedDepths_m) {
     svg += line(chart.x(depth), chart.kTop, chart.x(depth), chart.kHeight - chart.kBottom, "grid");
-    svg += label(chart.x(depth), chart.kHeight - chart.kBottom + 18, "middle-label",
+    svg += label(chart.x(depth), chart.kHeight - chart.kBottom + 22, "middle-label",
                  fixed(depth, depth < 1 ? 1 : 0) + " m");
   }
   svg += "<polyline class=\"curve\" points=\"" + points + "\"/>";

@@ -10,6 +10,7 @@ namespace {
 constexpr double kGoodRow_px = 0.25, kUsableRow_px = 0.5;
 constexpr double kGoodRms_px = 0.5, kUsableRms_px = 1.0;
 constexpr double kGoodCoverage = 0.6, kUsableCoverage = 0.3;
+constexpr double kUsableBreakdown = 0.05;
 constexpr int kGoodPairs = 8;
 
 std::string number(double value, int digits) {
@@ -77,6 +78,11 @@ Verdict judge(const QualityFigures& f) {
                 (f.left_coverage <= f.right_coverage ? "left" : "right") + " image" +
                 (f.empty_parts.empty() ? "" : ", not in " + list_of(f.empty_parts)) +
                 "; depth there is not to be trusted.");
+  jury.hear(
+      grade_of(f.breakdown, 0, kUsableBreakdown),
+      "The lens model breaks down in " + number(100 * f.breakdown, 1) +
+          " % of the images: it has more coefficients than these pictures can hold. Show the board there "
+          "too, or choose a lens model with fewer of them.");
   jury.hear(f.pairs_used >= kGoodPairs ? Grade::kGood : Grade::kUsable,
             "Only " + std::to_string(f.pairs_used) + " pairs were calibrated with; 15 and more are better.");
   jury.hear(2 * f.pairs_left_out <= f.pairs_used ? Grade::kGood : Grade::kDoAgain,

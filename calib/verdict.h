@@ -24,6 +24,7 @@ struct QualityFigures {
   double row_error_px = 0;                       ///< mean, on pairs held back
   double worst_row_error_px = 0;                 ///< of one such pair
   double left_coverage = 0, right_coverage = 0;  ///< 0 … 1
+  double breakdown = 0;                          ///< share of the images where a lens model has no inverse
   std::vector<std::string> empty_parts;          ///< Coverage::empty_parts() of the emptier image
 };
 
