@@ -28,7 +28,7 @@ Board parse_board(std::string_view text) {
                    "', allowed are the inner corners across and down, like 9x6, from 3 to 50 each, or auto");
 }
 
-double parse_length(std::string_view text) {
+double parse_length(std::string_view text, const std::string& option) {
   struct Unit {
     std::string_view name;
     double metres;
@@ -47,7 +47,7 @@ double parse_length(std::string_view text) {
       if (unit == known.name && metres >= 1e-3 && metres <= 10) return metres;
     }
   }
-  throw UsageError("--square: found '" + std::string(text) +
+  throw UsageError(option + ": found '" + std::string(text) +
                    "', allowed is a length with its unit, like 25mm, 2.5cm, 0.025m or 1in, from 1mm to 10m");
 }
 

@@ -28,8 +28,9 @@ using Corners = std::vector<Point2>;
 /// "9x6" (or "9×6") as inner corners, 3 to 50 each; the square is left 0. Throws UsageError.
 Board parse_board(std::string_view text);
 
-/// A length with its unit: "25mm", "2.5cm", "0.025m", "1in"; from 1 mm to 10 m. In metres. Throws UsageError.
-double parse_length(std::string_view text);
+/// A length with its unit: "25mm", "2.5cm", "0.025m", "1in"; from 1 mm to 10 m. In metres.
+/// Throws UsageError, beginning with `option`.
+double parse_length(std::string_view text, const std::string& option);
 
 /// "9×6 inner corners".
 std::string in_words(const Board& board);

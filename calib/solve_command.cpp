@@ -24,7 +24,7 @@ struct Flags {
 SolveOptions solve_options(const BoardFlags& flags) {
   SolveOptions options;
   if (flags.board != "auto") options.board = parse_board(flags.board);
-  options.square_m = parse_length(flags.square);
+  options.square_m = parse_length(flags.square, "--square");
   const auto lens = parse_lens(flags.lens);
   if (!lens) {
     throw UsageError("--lens: found '" + flags.lens + "', allowed are " + std::string(kLensChoices));

@@ -21,14 +21,14 @@ TEST(Board, ReadsItsSize) {
 }
 
 TEST(Board, ReadsLengthsWithTheirUnit) {
-  EXPECT_EQ(parse_length("25mm"), 0.025);
-  EXPECT_EQ(parse_length("2.5cm"), 0.025);
-  EXPECT_EQ(parse_length("0.025m"), 0.025);
-  EXPECT_EQ(parse_length("1 in"), 0.0254);
-  EXPECT_EQ(parse_length("24.23mm"), 0.02423);
+  EXPECT_EQ(parse_length("25mm", "--square"), 0.025);
+  EXPECT_EQ(parse_length("2.5cm", "--square"), 0.025);
+  EXPECT_EQ(parse_length("0.025m", "--square"), 0.025);
+  EXPECT_EQ(parse_length("1 in", "--square"), 0.0254);
+  EXPECT_EQ(parse_length("24.23mm", "--square"), 0.02423);
   for (const char* text :
        {"", "25", "mm", "25 km", "-25mm", "0mm", "0.1mm", "11m", "nanmm", "infm", "25mmm"}) {
-    EXPECT_THROW(parse_length(text), UsageError) << text;
+    EXPECT_THROW(parse_length(text, "--square"), UsageError) << text;
   }
 }
 
