@@ -9,6 +9,7 @@ namespace stereod {
 void add_solve_command(CLI::App& app, int& status);
 void add_board_command(CLI::App& app, int& status);
 void add_exchange_commands(CLI::App& app, int& status);  ///< import and export
+void add_capture_command(CLI::App& app, int& status);
 void add_check_command(CLI::App& app, int& status);
 
 }  // namespace stereod

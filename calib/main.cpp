@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit status: 0 good, 1 the result should not be used, 2 wrong input, 3 failure of the machine.");
   stereod::add_board_command(app, status);
+  stereod::add_capture_command(app, status);
   stereod::add_solve_command(app, status);
   stereod::add_check_command(app, status);
   stereod::add_exchange_commands(app, status);

@@ -1,0 +1,187 @@
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <future>
+#include <memory>
+
+#include "calib/board_finder.h"
+#include "calib/commands.h"
+#include "calib/corner_order.h"
+#include "calib/errors.h"
+#include "calib/frame_feed.h"
+#include "calib/guidance.h"
+#include "calib/live_page.h"
+#include "calib/live_state.h"
+#include "calib/solve_command.h"
+#include "calib/text_file.h"
+#include "daemon/imagefile/write_image.h"
+
+namespace stereod {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Flags {
+  fs::path config, keep;
+  BoardFlags board;
+  SolveOutput output;
+  int pairs = 15, port = 8090;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+extern "C" void on_interrupt(int) { interrupted = 1; }
+
+// One line that changes, on a terminal; elsewhere a new line for each new advice.
+class StatusLine {
+ public:
+  void show(const LiveMoment& moment) {
+    if (terminal_) {
+      std::fprintf(stderr, "\r\033[K%s", status_line(moment).c_str());
+    } else if (moment.words != last_) {
+      std::fprintf(stderr, "%s\n", status_line(moment).c_str());
+    }
+    last_ = moment.words;
+  }
+  void taken() const {
+    if (terminal_) std::fputs("\a", stderr);
+  }
+  void end() const {
+    if (terminal_) std::fputs("\n", stderr);
+  }
+
+ private:
+  bool terminal_ = ::isatty(STDERR_FILENO) == 1;
+  std::string last_;
+};
+
+// The board in both pictures at once.
+BoardPair look(const PicturePair& pair, const Board& board) {
+  auto right =
+      std::async(std::launch::async, [&] { return find_board(pair.right.view(), board, Effort::kLive); });
+  const auto left = find_board(pair.left.view(), board, Effort::kLive);
+  const auto other = right.get();
+  BoardPair corners;
+  if (left) corners.left = left->corners;
+  if (other) corners.right = other->corners;
+  if (left && other) {
+    // What cannot be told apart counts as not seen.
+    corners.right = turned_like(corners.left, board, corners.right).value_or(Corners{});
+  }
+  return corners;
+}
+
+void write_pair(const fs::path& folder, std::size_t number, const PicturePair& pair) {
+  if (folder.empty()) return;
+  const std::string name = (number < 10 ? "0" : "") + std::to_string(number) + ".png";
+  write_png(folder / ("left_" + name), pair.left.view());
+  write_png(folder / ("right_" + name), pair.right.view());
+}
+
+std::vector<PicturePair> collect(const Flags& flags, const Board& board, FrameFeed& feed, LivePage* page) {
+  constexpr std::chrono::milliseconds kPatience{500};
+  Guide guide(board, feed.frame_size(), flags.pairs);
+  StatusLine line;
+  std::vector<PicturePair> taken;
+  while (interrupted == 0 && !feed.finished()) {
+    std::optional<PicturePair> pair = feed.next(kPatience);
+    if (!pair) {
+      LiveMoment waiting{feed.frame_size(),
+                         {},
+                         {},
+                         "waiting for pictures of the cameras",
+                         guide.taken(),
+                         guide.wanted(),
+                         0,
+                         0,
+                         {},
+                         {}};
+      if (!feed.finished()) line.show(waiting);
+      continue;
+    }
+    const BoardPair corners = look(*pair, board);
+    const Guide::Advice advice = guide.observe(corners.left, corners.right);
+    const LiveMoment moment = moment_of(guide, advice, corners.left, corners.right, feed.frame_size());
+    line.show(moment);
+    if (page != nullptr) page->show(moment, pair->left.view(), pair->right.view());
+    if (!advice.take) continue;
+    line.taken();
+    write_pair(flags.keep, taken.size(), *pair);
+    taken.push_back(std::move(*pair));
+    taken.back().name = "pair " + std::to_string(taken.size());
+    if (advice.complete) break;
+  }
+  line.end();
+  return taken;
+}
+
+int run(const Flags& flags) {
+  const SolveOptions options = solve_options(flags.board);
+  if (!options.board) {
+    throw UsageError("--board: say which board it is, like 9x6; 'auto' would be too slow to guide you live");
+  }
+  require_writable(flags.output.calibration);
+  if (!flags.output.report.empty()) require_writable(flags.output.report);
+  if (!flags.keep.empty()) {
+    std::error_code error;
+    fs::create_directories(flags.keep, error);
+    require_writable(flags.keep / "left_00.png");
+  }
+  Config config = read_config(flags.config);
+  config.calibration.clear();  // an old one may not even be for this image size
+  FrameFeed feed(config);
+  std::unique_ptr<LivePage> page;
+  if (flags.port > 0) {
+    page = std::make_unique<LivePage>(flags.port);
+    std::fprintf(stderr,
+                 "Live pictures: http://127.0.0.1:%d/ (from another machine: ssh -L %d:127.0.0.1:%d ROBOT)\n",
+                 page->port(), page->port(), page->port());
+  }
+  std::fputs(
+      "Pairs are taken by themselves while the board is held still. Ctrl-C ends taking and calibrates.\n",
+      stderr);
+  std::signal(SIGINT, on_interrupt);
+  const std::vector<PicturePair> pictures = collect(flags, *options.board, feed, page.get());
+  std::signal(SIGINT, SIG_DFL);
+  std::printf("%zu pairs taken\n", pictures.size());
+  return solve_and_write(pictures, options, flags.output);
+}
+
+}  // namespace
+
+void add_capture_command(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand(
+      "capture", "calibrate live: guides you while you move the board before the cameras, then solves");
+  auto flags = std::make_shared<Flags>();
+  flags->board.board = "9x6";
+  command
+      ->add_option("--config", flags->config,
+                   "the daemon's stereod.yaml, which names the cameras; stop the daemon "
+                   "first, it holds them")
+      ->required();
+  command->add_option("--board", flags->board.board, "inner corners across and down")->capture_default_str();
+  command
+      ->add_option("--square", flags->board.square,
+                   "side of a square as measured on the print, with its unit: 25mm")
+      ->required();
+  command->add_option("--lens", flags->board.lens, "lens model: " + std::string(kLensChoices))
+      ->capture_default_str();
+  command->add_option("--pairs", flags->pairs, "pairs to take, more if parts of the image stay empty")
+      ->check(CLI::Range(kFewestPairs, 200))
+      ->capture_default_str();
+  command->add_option("--port", flags->port, "of the live page on 127.0.0.1; 0: no page")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_option("--keep", flags->keep, "a folder to keep the taken pairs in, for solve");
+  flags->output.calibration = "calibration.yaml";
+  command->add_option("-o,--output", flags->output.calibration, "the calibration, as stereod reads it")
+      ->capture_default_str();
+  command->add_option("--report", flags->output.report, "a page about the result, one .html file");
+  command->callback([flags, &status] { status = run(*flags); });
+}
+
+}  // namespace stereod
