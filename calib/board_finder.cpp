@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calib/corner_order.h"
+#include "calib/edge_width.h"
 #include "calib/opencv_image.h"
 
 namespace stereod {
@@ -41,13 +42,6 @@ bool find(const cv::Mat& image, const Board& board, Effort effort, Points& point
   return cv::findChessboardCornersSB(image, pattern, points, cv::CALIB_CB_NORMALIZE_IMAGE);
 }
 
-double edge_width(const cv::Mat& image, const Board& board, const Points& points) {
-  constexpr float kRise = 0.8F;  // from 10 % to 90 %
-  const cv::Size pattern(board.columns, board.rows);
-  return std::max(cv::estimateChessboardSharpness(image, pattern, points, kRise, false)[0],
-                  cv::estimateChessboardSharpness(image, pattern, points, kRise, true)[0]);
-}
-
 }  // namespace
 
 std::optional<FoundBoard> find_board(GreyView picture, const Board& board, Effort effort) {
@@ -63,7 +57,7 @@ std::optional<FoundBoard> find_board(GreyView picture, const Board& board, Effor
     found.corners.push_back({p.x, p.y});
   }
   found.corners = in_board_order(picture, board, std::move(found.corners));
-  if (effort == Effort::kThorough) found.edge_width_px = edge_width(image, board, points);
+  if (effort == Effort::kThorough) found.edge_width_px = edge_width_px(picture, board, found.corners);
   return found;
 }
 

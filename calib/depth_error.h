@@ -10,8 +10,9 @@ namespace stereod {
 /// Where the report says how far off depth is.
 inline constexpr std::array kReportedDepths_m = {0.5, 1.0, 2.0, 5.0, 10.0};
 
-/// What a good matcher itself is uncertain by on a well-textured surface.
-inline constexpr double kMatcherError_px = 0.25;
+/// What block matching itself is uncertain by on a textured surface, after rectification to the nearest pixel;
+/// measured on the synthetic scene.
+inline constexpr double kMatcherError_px = 0.3;
 
 /// What makes depth uncertain.
 struct DepthErrorSources {

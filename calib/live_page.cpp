@@ -2,6 +2,7 @@
 
 #include <httplib.h>
 
+#include <chrono>
 #include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
@@ -71,6 +72,8 @@ LivePage::LivePage(int port) : server_(std::make_unique<Server>()) {
                            " on 127.0.0.1 is taken; choose another with --port, or 0 for no page");
   }
   s.thread = std::jthread([&s] { s.http.listen_after_bind(); });
+  // stop() would not be heard before that.
+  while (!s.http.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 LivePage::~LivePage() {

@@ -7,6 +7,7 @@
 
 #include "calib/coverage.h"
 #include "calib/depth_error.h"
+#include "calib/edge_width.h"
 #include "calib/html.h"
 #include "calib/pair_consensus.h"
 #include "calib/progress.h"
@@ -50,14 +51,13 @@ Calibration simple() {
 TEST(DepthError, GrowsWithTheSquareOfDepth) {
   const Calibration c = simple();
   const DepthErrorSources none{0, 0};
-  // A quarter pixel at 2 m: 4/50·0.25.
-  EXPECT_NEAR(expected_depth_error_m(c, none, 2), 0.02, 1e-12);
-  EXPECT_NEAR(expected_depth_error_m(c, none, 4), 0.08, 1e-12);
+  // 0.3 px at 2 m: 4/50·0.3.
+  EXPECT_NEAR(expected_depth_error_m(c, none, 2), 0.024, 1e-12);
+  EXPECT_NEAR(expected_depth_error_m(c, none, 4), 0.096, 1e-12);
   // It is what depth really changes by for such a change of disparity.
-  const double disparity = disparity_at(c, 2);
-  EXPECT_NEAR(depth_m(c, disparity - kMatcherError_px) - 2, 0.02, 0.001);
-  EXPECT_NEAR(expected_depth_error_m(c, {0, 0.05}, 2), std::hypot(0.02, 0.1), 1e-12);
-  EXPECT_NEAR(expected_depth_error_m(c, {std::sqrt(3) / 4, 0}, 2), 0.04, 1e-12);
+  EXPECT_NEAR(depth_m(c, disparity_at(c, 2) - kMatcherError_px) - 2, 0.024, 0.001);
+  EXPECT_NEAR(expected_depth_error_m(c, {0, 0.05}, 2), std::hypot(0.024, 0.1), 1e-12);
+  EXPECT_NEAR(expected_depth_error_m(c, {std::sqrt(3) * 0.3, 0}, 2), 0.048, 1e-12);
 }
 
 QualityFigures fine() {
@@ -175,6 +175,34 @@ TEST(PairConsensus, HoldsBackAFifthEvenlySpread) {
   EXPECT_THAT(evenly_spread(3, 13), ElementsAre(2U, 6U, 10U));
   EXPECT_THAT(evenly_spread(1, 5), ElementsAre(2U));
   EXPECT_EQ(median({3, 1, 2}), 2);
+}
+
+TEST(EdgeWidth, GrowsWithBlurInEitherDirection) {
+  const Board board{9, 6, 0.025};
+  const StereoCameras cameras = known_cameras({640, 480});
+  const BoardPose pose = board_at(board, {0, 0, 0.4}, {0.1, 0.1, 0.3});
+  const PicturePair pair = BoardScene(cameras, board).render(pose, 1);
+  Corners corners;
+  for (std::size_t c = 0; c < board.corner_count(); ++c) {
+    const Vector3 p = pose.rotation * board_point(board, c);
+    const double z = p.z + pose.translation_m.z;
+    corners.push_back(cameras.left.to_pixel(
+        cameras.left.distort({(p.x + pose.translation_m.x) / z, (p.y + pose.translation_m.y) / z})));
+  }
+  const double sharp = edge_width_px(pair.left.view(), board, corners);
+  EXPECT_NEAR(sharp, 1.8, 0.4);  // a ramp of two pixels, less a tenth at each end, and the interpolation
+  for (const bool across : {true, false}) {
+    GreyImage blurred = copy_of(pair.left);
+    for (int y = 4; y + 4 < blurred.height(); ++y) {
+      for (int x = 4; x + 4 < blurred.width(); ++x) {
+        int sum = 0;
+        for (int d = -4; d <= 4; ++d) sum += across ? pair.left.at(x + d, y) : pair.left.at(x, y + d);
+        blurred.at(x, y) = static_cast<std::uint8_t>(sum / 9);
+      }
+    }
+    EXPECT_GT(edge_width_px(blurred.view(), board, corners), 6) << across;
+  }
+  EXPECT_GT(edge_width_px(GreyImage(640, 480).view(), board, corners), 20);  // no edge at all
 }
 
 TEST(Words, AreSafeAndReadable) {

@@ -123,10 +123,10 @@ std::vector<BoardPose> varied_poses(const Board& board, int count) {
     const double z = reach * (1.45 + 0.4 * ((i + i / 9) % 3));
     // Round the image, and the middle.
     const int place = i % 9;
-    const double free_x = std::max(0.0, 0.46 * z - 0.55 * board.columns * board.square_m - 0.03);
-    const double free_y = std::max(0.0, 0.36 * z - 0.62 * board.rows * board.square_m);
+    const double free_x = std::max(0.0, 0.5 * z - 0.5 * board.columns * board.square_m - 0.03);
+    const double free_y = std::max(0.0, 0.4 * z - 0.6 * board.rows * board.square_m);
     const Vector3 middle{(place % 3 - 1) * free_x + 0.025, (place / 3 - 1) * free_y, z};
-    poses.push_back(board_at(board, middle, {within(0.45), within(0.45), within(0.15)}));
+    poses.push_back(board_at(board, middle, {within(0.4), within(0.4), within(0.12)}));
   }
   return poses;
 }
