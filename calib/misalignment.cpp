@@ -15,16 +15,22 @@ namespace {
 constexpr int kHalf = 8;  // of a patch
 constexpr int kMostPoints = 500;
 
-// Where in the right picture a patch looks most alike, to a pixel; nothing if that is not sure.
-std::optional<cv::Point2f> find_again(const cv::Mat& left, const cv::Mat& right, cv::Point2f at) {
+// How far from its place a patch is searched for, to the left and to the right.
+struct Reach {
+  int left, right;
+};
+
+// Where in the other picture a patch looks most alike, to a pixel; nothing if that is not sure.
+std::optional<cv::Point2f> find_again(const cv::Mat& left, const cv::Mat& right, cv::Point2f at,
+                                      Reach reach) {
   const int x = cvRound(at.x), y = cvRound(at.y);
-  const int up_down = std::max(6, left.rows / 40), far = left.cols / 4, near = 8;
+  const int up_down = std::max(6, left.rows / 40);
   const cv::Rect image(0, 0, left.cols, left.rows);
   const cv::Rect patch(x - kHalf, y - kHalf, 2 * kHalf + 1, 2 * kHalf + 1);
-  const cv::Rect area =
-      cv::Rect(patch.x - far, patch.y - up_down, patch.width + far + near, patch.height + 2 * up_down) &
-      image;
-  if ((patch & image) != patch || area.width <= patch.width + near || area.height <= patch.height) {
+  const cv::Rect area = cv::Rect(patch.x - reach.left, patch.y - up_down,
+                                 patch.width + reach.left + reach.right, patch.height + 2 * up_down) &
+                        image;
+  if ((patch & image) != patch || area.width <= patch.width + 8 || area.height <= patch.height) {
     return std::nullopt;
   }
   cv::Mat likeness;
@@ -46,12 +52,17 @@ std::vector<RowMatch> match_rows(GreyView left_view, GreyView right_view) {
   const cv::Mat left = as_opencv(left_view), right = as_opencv(right_view);
   std::vector<cv::Point2f> points;
   cv::goodFeaturesToTrack(left, points, kMostPoints, 0.01, 7);
+  const int far = left.cols / 4, near = 8;
   std::vector<cv::Point2f> from, to;
   for (const cv::Point2f& p : points) {
-    if (const auto again = find_again(left, right, p)) {
-      from.push_back({std::round(p.x), std::round(p.y)});
-      to.push_back(*again);
-    }
+    const cv::Point2f start(std::round(p.x), std::round(p.y));
+    const auto again = find_again(left, right, start, {far, near});
+    if (!again) continue;
+    // What is not found back from there was not the same thing.
+    const auto back = find_again(right, left, *again, {near, far});
+    if (!back || cv::norm(*back - start) > 1.5) continue;
+    from.push_back(start);
+    to.push_back(*again);
   }
   std::vector<RowMatch> matches;
   if (from.empty()) return matches;

@@ -17,7 +17,7 @@ struct RowMatch {
 };
 
 /// Well-textured points of the left picture, searched for in the right one some rows up and down (a fortieth
-/// of the height, at least 6), a quarter of the width to the left and a little to the right.
+/// of the height, at least 6), a quarter of the width to the left and a little to the right, and back again.
 std::vector<RowMatch> match_rows(GreyView left, GreyView right);
 
 /// What the points say together. A single point is only exact to a few tenths of a pixel, the median of many

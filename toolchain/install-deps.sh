@@ -10,7 +10,7 @@ build_packages=(
   libturbojpeg0-dev libpng-dev
   iproute2 util-linux          # ip and unshare: the demo's and the tests' own network
 )
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libopencv-dev)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libopencv-dev poppler-utils libcpp-httplib-dev)
 # The Aloe photographs. Some mirrors do without documentation, and so can we.
 optional_packages=(opencv-doc)
 

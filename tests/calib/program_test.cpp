@@ -311,7 +311,7 @@ TEST_F(Program, CaptureGuidesTakesAndSolves) {
       run({"capture", "--config", file("config.yaml"), "--board", "9x6", "--square", "25mm", "--port", "0",
            "--pairs", "14", "--keep", file("kept"), "-o", file("c.yaml"), "--report", file("r.html")});
   EXPECT_EQ(result.status, 0) << result.out << result.err;
-  for (const char* words : {"show the whole board to both cameras", "hold still", "come closer",
+  for (const char* words : {"show the whole board to both cameras", "hold still", 
                             "tilt the board", "left no ", "left yes right yes"}) {
     EXPECT_THAT(result.err, HasSubstr(words));
   }
