@@ -10,8 +10,8 @@ namespace stereod {
 /// Where the report says how far off depth is.
 inline constexpr std::array kReportedDepths_m = {0.5, 1.0, 2.0, 5.0, 10.0};
 
-/// What block matching itself is uncertain by on a textured surface, after rectification to the nearest pixel;
-/// measured on the synthetic scene.
+/// What block matching itself is uncertain by on a textured surface, after rectification to the nearest
+/// pixel; measured on the synthetic scene.
 inline constexpr double kMatcherError_px = 0.3;
 
 /// What makes depth uncertain.
