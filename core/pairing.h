@@ -59,6 +59,13 @@ class Pairing {
     }
   }
 
+  void set_tolerance_ns(std::int64_t tolerance_ns) { tolerance_ns_ = tolerance_ns; }
+
+  /// Drops the frame of one camera that waits for a partner: that camera has stopped.
+  void forget_waiting(Side side) {
+    if (waiting(side)) drop(side);
+  }
+
   bool has_pair() const { return ready_.has_value(); }
 
   /// The newest pair, if there is one that was not taken yet.

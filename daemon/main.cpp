@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/match/isa.h"
+#include "daemon/capture/v4l2/camera_list.h"
 #include "daemon/config/config.h"
 #include "daemon/config/file_error.h"
 #include "daemon/pipeline/clocks.h"
@@ -124,6 +125,9 @@ int main_with(int argc, char** argv) {
   bool check_only = false;
   app.add_option("--config", config_file, "the configuration")->capture_default_str();
   app.add_flag("--check-config", check_only, "say whether the configuration can work, and end");
+  bool list_only = false;
+  app.add_flag("--list-cameras", list_only,
+               "print every camera with its names, formats and controls, and end");
   app.set_version_flag("--version", std::string("stereod ") + kVersion);
   try {
     app.parse(argc, argv);
@@ -132,6 +136,10 @@ int main_with(int argc, char** argv) {
   }
   set_up_log("info");
   try {
+    if (list_only) {
+      std::fputs(list_cameras(*make_kernel_video_system()).c_str(), stdout);
+      return 0;
+    }
     const Config config = read_config(config_file);
     set_up_log(config.log_level);
     if (check_only) {

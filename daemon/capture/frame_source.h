@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "core/image.h"
@@ -75,6 +76,22 @@ enum class SourceState {
   kFinished,   ///< a recording played to its end: no frame will ever come again
 };
 
+/// How a source is, for people and for the status message.
+struct SourceReport {
+  std::string state;       ///< waiting, streaming or finished; of a real camera: see CameraState
+  std::string reason;      ///< why it does not stream; empty when it does
+  std::string device;      ///< the device it is now; empty if none
+  std::string format;      ///< what it gives: "MJPG 640×480 at 30/s"
+  std::string note;        ///< what is worth knowing all the same, such as a control that did not take
+  std::string last_fault;  ///< the last reason it did not stream for
+  std::int64_t last_fault_ns = 0;  ///< when, CLOCK_MONOTONIC; 0: never
+  std::int64_t reconnects = 0;     ///< times it streamed again
+  std::int64_t decode_errors = 0;  ///< frames dropped: JPEGs that could not be decoded
+  std::int64_t incomplete = 0;     ///< frames dropped: empty, too short, or marked as damaged by the driver
+  std::int64_t bad_stamps = 0;     ///< frames dropped: stamped in a time that cannot be
+  std::int64_t superseded = 0;     ///< frames dropped: a newer one was there already
+};
+
 /// One camera: real, recorded or rendered. next() is called by one thread, the camera's own; give_back() by
 /// any; stop() by any, once, and makes next() return at once from then on.
 class FrameSource {
@@ -90,6 +107,12 @@ class FrameSource {
 
   virtual SourceState state() const noexcept = 0;
   virtual void stop() noexcept = 0;
+
+  /// Any thread; not on the per-frame path.
+  virtual SourceReport report() const;
+
+  /// The time from one frame to the next as the camera has it now; 0: as configured. The camera's thread.
+  virtual std::int64_t frame_time_ns() const noexcept { return 0; }
 };
 
 }  // namespace stereod

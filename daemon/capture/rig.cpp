@@ -1,6 +1,9 @@
 #include "daemon/capture/rig.h"
 
+#include <spdlog/spdlog.h>
+
 #include <chrono>
+#include <utility>
 
 #include "daemon/capture/replay_source.h"
 #include "daemon/capture/synthetic_source.h"
@@ -39,11 +42,38 @@ Rig open_synthetic_rig(const CamerasConfig& cameras) {
   return rig;
 }
 
+void log_camera(LogLevel level, const std::string& sentence) {
+  spdlog::log(level == LogLevel::kWarning ? spdlog::level::warn : spdlog::level::info, "{}", sentence);
+}
+
+Rig open_uncalibrated(const CamerasConfig& cameras) {
+  switch (cameras.source) {
+    case SourceKind::kV4l2:
+      return make_v4l2_rig(cameras, make_kernel_video_system(), log_camera);
+    case SourceKind::kReplay:
+      return open_replay_rig(cameras);
+    case SourceKind::kSynthetic:
+      return open_synthetic_rig(cameras);
+  }
+  return {};
+}
+
 }  // namespace
 
+Rig make_v4l2_rig(const CamerasConfig& cameras, std::unique_ptr<VideoSystem> system, const CameraLog& log) {
+  const auto pair = std::make_shared<CameraPair>(cameras);
+  Rig rig;
+  rig.left = std::make_unique<V4l2Camera>(*system, pair, Side::kLeft, cameras, log);
+  rig.right = std::make_unique<V4l2Camera>(*system, pair, Side::kRight, cameras, log);
+  rig.left_name = cameras.v4l2.left;
+  rig.right_name = cameras.v4l2.right;
+  rig.cameras = pair;
+  rig.video = std::move(system);
+  return rig;
+}
+
 Rig open_rig(const Config& config) {
-  Rig rig = config.cameras.source == SourceKind::kReplay ? open_replay_rig(config.cameras)
-                                                         : open_synthetic_rig(config.cameras);
+  Rig rig = open_uncalibrated(config.cameras);
   if (!config.calibration.empty()) rig.calibration = read_calibration(config.calibration);
   const Size size = rig.left->frame_size();
   if (rig.calibration && rig.calibration->image != size) {

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <thread>
 
+#include "daemon/config/v4l2_section.h"
 #include "daemon/config/yaml_section.h"
 
 namespace stereod {
@@ -13,6 +14,7 @@ namespace {
 constexpr std::size_t kLongestPrefix = 40;  // LCM's channel names have at most 63 characters
 
 std::optional<SourceKind> parse_source_kind(std::string_view name) {
+  if (name == "v4l2") return SourceKind::kV4l2;
   if (name == "replay") return SourceKind::kReplay;
   if (name == "synthetic") return SourceKind::kSynthetic;
   return std::nullopt;
@@ -46,10 +48,11 @@ void read_synthetic(YamlSection section, CamerasConfig& cameras) {
 void read_cameras(YamlSection section, CamerasConfig& cameras) {
   section.required_text("source");
   cameras.source =
-      section.choice<SourceKind>("source", cameras.source, "replay and synthetic", parse_source_kind);
+      section.choice<SourceKind>("source", cameras.source, "v4l2, replay and synthetic", parse_source_kind);
   cameras.fps = section.number("fps", cameras.fps, 0, 240);
   cameras.max_skew_ms = section.number("max_skew_ms", cameras.max_skew_ms, 0, 1000);
   // A section for another source may stay in the file; it is checked all the same.
+  read_v4l2_section(section, cameras);
   YamlSection replay = section.section("replay");
   YamlSection synthetic = section.section("synthetic");
   if (cameras.source == SourceKind::kReplay || section.has("replay")) read_replay(std::move(replay), cameras);
@@ -105,6 +108,8 @@ void read_lcm(YamlSection section, LcmConfig& lcm) {
   }
   lcm.rows_per_message = section.integer("rows_per_message", lcm.rows_per_message, 1, 4096);
   lcm.spread = section.number("spread", lcm.spread, 0, 0.9);
+  lcm.raw_images = section.flag("raw_images", lcm.raw_images);
+  lcm.raw_images_per_second = section.number("raw_images_per_second", lcm.raw_images_per_second, 0.1, 60);
   section.finish();
 }
 
@@ -123,7 +128,17 @@ std::string read_log_level(YamlSection section, const std::string& otherwise) {
 
 }  // namespace
 
-std::string_view name_of(SourceKind kind) { return kind == SourceKind::kReplay ? "replay" : "synthetic"; }
+std::string_view name_of(SourceKind kind) {
+  switch (kind) {
+    case SourceKind::kV4l2:
+      return "v4l2";
+    case SourceKind::kReplay:
+      return "replay";
+    case SourceKind::kSynthetic:
+      return "synthetic";
+  }
+  return "?";
+}
 
 std::int64_t CamerasConfig::pairing_tolerance_ns() const {
   if (max_skew_ms > 0) return static_cast<std::int64_t>(max_skew_ms * 1e6);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -11,14 +12,45 @@ namespace stereod {
 
 /// Where frames come from.
 enum class SourceKind {
+  kV4l2,       ///< two cameras
   kReplay,     ///< recorded pictures
   kSynthetic,  ///< a rendered scene with known depth
+};
+
+/// How the cameras' exposure is kept.
+enum class ExposureMode {
+  kAuto,    ///< each camera as it likes
+  kLock,    ///< the same for both, and it stays as it is
+  kFollow,  ///< the left camera's automatic one, copied to the right camera
+};
+
+/// When the right camera is restarted so that both expose at the same time.
+enum class AlignMode {
+  kNever,
+  kStart,   ///< when both have begun to stream
+  kAlways,  ///< also when they have drifted apart
+};
+
+/// A camera's control by its name, such as gain.
+using ControlValues = std::map<std::string, int>;
+
+/// source: v4l2
+struct V4l2Config {
+  std::string left = "auto", right = "auto";  ///< see find_camera()
+  int width = 640, height = 480;
+  std::string format = "auto";
+  ExposureMode exposure = ExposureMode::kFollow;
+  ControlValues controls, left_controls, right_controls;  ///< of both, and of one camera more
+  AlignMode align = AlignMode::kStart;
+  double target_skew_ms = 3;
+  int align_tries = 8;
 };
 
 struct CamerasConfig {
   SourceKind source = SourceKind::kSynthetic;
   double fps = 30;         ///< 0…240; 0: the next frame once the last one is matched and sent
   double max_skew_ms = 0;  ///< tolerance of pairing; 0 stands for half a frame
+  V4l2Config v4l2;
   // source: replay
   std::filesystem::path replay_left, replay_right;  ///< one pair of pictures, or
   std::filesystem::path replay_folder;              ///< a folder of numbered pairs
@@ -35,7 +67,9 @@ struct LcmConfig {
   std::string url;                ///< empty: LCM_DEFAULT_URL, or this machine only
   std::string prefix = "STEREO";  ///< of every channel
   int rows_per_message = 16;
-  double spread = 0.3;  ///< share of the frame time over which a frame's rows are spread out
+  double spread = 0.3;      ///< share of the frame time over which a frame's rows are spread out
+  bool raw_images = false;  ///< publish what the cameras see
+  double raw_images_per_second = 2;
 };
 
 struct Config {

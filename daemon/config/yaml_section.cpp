@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <numeric>
 #include <sstream>
 #include <system_error>
@@ -197,6 +198,16 @@ std::vector<double> YamlSection::required_numbers(const std::string& key,
     if (!value || !std::isfinite(*value))
       fail(key, "found " + kind_of(item) + ", allowed are finite numbers");
     values.push_back(*value);
+  }
+  return values;
+}
+
+std::map<std::string, int> YamlSection::integers(const std::string& key) {
+  YamlSection below = section(key);
+  std::map<std::string, int> values;
+  for (const auto& entry : below.map_) {
+    const std::string& name = entry.first.Scalar();
+    values[name] = below.integer(name, 0, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
   }
   return values;
 }

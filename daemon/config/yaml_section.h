@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,6 +52,9 @@ class YamlSection {
   std::string required_text(const std::string& key);
   /// A list of as many numbers as one of `counts` says.
   std::vector<double> required_numbers(const std::string& key, const std::vector<std::size_t>& counts);
+
+  /// The whole numbers of the map below `key`, by their names; empty if it is not there.
+  std::map<std::string, int> integers(const std::string& key);
 
   /// The map below `key`; an empty one if it is not there.
   YamlSection section(const std::string& key);

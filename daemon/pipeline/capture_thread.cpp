@@ -4,6 +4,22 @@
 #include <utility>
 
 namespace stereod {
+namespace {
+
+// From a grid of 32 × 24 pixels.
+double brightness_of(const LumaView& luma) noexcept {
+  constexpr int kColumns = 32, kRows = 24;
+  int sum = 0;
+  for (int j = 0; j < kRows; ++j) {
+    const std::uint8_t* row = luma.data + (2 * j + 1) * luma.size.height / (2 * kRows) * luma.row_stride;
+    for (int i = 0; i < kColumns; ++i) {
+      sum += row[(2 * i + 1) * luma.size.width / (2 * kColumns) * luma.pixel_stride];
+    }
+  }
+  return static_cast<double>(sum) / (kColumns * kRows);
+}
+
+}  // namespace
 
 CaptureThread::CaptureThread(Side side, FrameSource& source, PairingDesk& desk)
     : side_(side), source_(source), desk_(desk), thread_([this] { run(); }) {}
@@ -16,15 +32,23 @@ void CaptureThread::stop() noexcept {
   if (thread_.joinable()) thread_.join();
 }
 
+void CaptureThread::note_interruption() noexcept {
+  if (!std::exchange(interrupted_, true)) desk_.camera_interrupted(side_);
+}
+
 void CaptureThread::run() noexcept {
   constexpr std::chrono::milliseconds kTimeout{100};
   std::uint32_t expected = 0;
   while (!stopping_) {
     FrameLease lease = source_.next(kTimeout);
     if (!lease) {
-      if (source_.state() == SourceState::kFinished) break;
+      const SourceState state = source_.state();
+      if (state == SourceState::kFinished) break;
+      if (state == SourceState::kWaiting) note_interruption();
       continue;
     }
+    if (std::exchange(interrupted_, false)) desk_.set_frame_time(side_, source_.frame_time_ns());
+    mean_brightness_ = brightness_of(lease.frame().luma);
     const std::uint32_t sequence = lease.frame().sequence;
     // A sequence that goes back is a camera that began anew, not a loss.
     if (frames_ > 0 && sequence > expected) sequence_gaps_ += sequence - expected;

@@ -11,7 +11,9 @@
 
 namespace stereod {
 
-/// Carries frames from a source to the desk until the source finishes or is stopped.
+/// Carries frames from a source to the desk until the source finishes or is stopped. When the source stops
+/// streaming, what still waits at the desk is given back, because a camera can only be set up anew when no
+/// frame of it is on loan.
 class CaptureThread {
  public:
   /// Starts the thread. Source and desk outlive it.
@@ -25,10 +27,12 @@ class CaptureThread {
 
   std::int64_t frames() const noexcept { return frames_; }
   std::int64_t sequence_gaps() const noexcept { return sequence_gaps_; }
-  SourceState state() const noexcept { return source_.state(); }
+  double mean_brightness() const noexcept { return mean_brightness_; }
+  SourceReport report() const { return source_.report(); }
 
  private:
   void run() noexcept;
+  void note_interruption() noexcept;
 
   Side side_;
   FrameSource& source_;
@@ -36,6 +40,8 @@ class CaptureThread {
   std::atomic<bool> stopping_{false};
   std::atomic<std::int64_t> frames_{0};
   std::atomic<std::int64_t> sequence_gaps_{0};
+  std::atomic<double> mean_brightness_{0};
+  bool interrupted_ = true;  // no frame came since the camera last stopped streaming
   std::thread thread_;
 };
 

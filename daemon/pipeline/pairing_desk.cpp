@@ -1,5 +1,6 @@
 #include "daemon/pipeline/pairing_desk.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace stereod {
@@ -10,6 +11,19 @@ void PairingDesk::add(Side side, FrameLease frame) noexcept {
   if (closed_) return;
   pairing_.add(side, std::move(frame), captured_ns);
   if (pairing_.has_pair()) changed_.notify_one();
+}
+
+void PairingDesk::set_frame_time(Side side, std::int64_t frame_ns) noexcept {
+  const std::lock_guard lock(mutex_);
+  frame_ns_[side == Side::kLeft ? 0 : 1] = frame_ns;
+  // The frames of the faster camera are all near one of the slower one.
+  const std::int64_t slower_ns = std::max(frame_ns_[0], frame_ns_[1]);
+  if (half_frames_ && slower_ns > 0) pairing_.set_tolerance_ns(slower_ns / 2);
+}
+
+void PairingDesk::camera_interrupted(Side side) noexcept {
+  const std::lock_guard lock(mutex_);
+  pairing_.forget_waiting(side);
 }
 
 void PairingDesk::camera_finished() noexcept {

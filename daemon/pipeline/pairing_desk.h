@@ -16,7 +16,16 @@ using LeasedPair = FramePair<FrameLease>;
 /// but the taker.
 class PairingDesk {
  public:
-  explicit PairingDesk(std::int64_t tolerance_ns) : pairing_(tolerance_ns) {}
+  /// `tolerance_ns`: of the pairing. `half_frames`: it is half a frame, and changes when a camera's rate
+  /// does.
+  explicit PairingDesk(std::int64_t tolerance_ns, bool half_frames = false)
+      : pairing_(tolerance_ns), half_frames_(half_frames) {}
+
+  /// The time from one frame of a camera to its next; 0: not known.
+  void set_frame_time(Side side, std::int64_t frame_ns) noexcept;
+
+  /// A camera has stopped streaming: its frame that waits for a partner is given back.
+  void camera_interrupted(Side side) noexcept;
 
   /// Takes a frame of one camera. Frames it drops are given back at once.
   void add(Side side, FrameLease frame) noexcept;
@@ -41,6 +50,8 @@ class PairingDesk {
   Pairing<FrameLease> pairing_;
   int cameras_finished_ = 0;
   bool closed_ = false;
+  const bool half_frames_;
+  std::int64_t frame_ns_[2] = {0, 0};
 };
 
 }  // namespace stereod

@@ -48,10 +48,13 @@ Pipeline::Pipeline(const Config& config, Rig rig, MessageBus& bus)
       size_(rig_.left->frame_size()),
       matcher_description_(describe(config)),
       publisher_(bus, wire_format(config), size_),
-      desk_(config.cameras.pairing_tolerance_ns()),
+      desk_(config.cameras.pairing_tolerance_ns(), config.cameras.max_skew_ms == 0),
       pool_(config.worker_count()) {
   for (int worker = 0; worker < pool_.workers(); ++worker) workers_.emplace_back(config.matcher, size_);
   if (config.matcher.speckle_size > 0) speckle_filter_.emplace(size_);
+  if (config.lcm.raw_images) {
+    raw_publisher_.emplace(bus, config.lcm.prefix, config.lcm.raw_images_per_second, size_);
+  }
   left_thread_.emplace(Side::kLeft, *rig_.left, desk_);
   right_thread_.emplace(Side::kRight, *rig_.right, desk_);
   matching_thread_ = std::thread([this] { matching_thread(); });
@@ -65,15 +68,19 @@ void Pipeline::stop() noexcept {
   right_thread_->stop();
   desk_.close();
   publisher_.stop();
+  if (raw_publisher_) raw_publisher_->stop();
   if (matching_thread_.joinable()) matching_thread_.join();
   desk_.clear();  // the leases end before their sources do
 }
 
-PipelineFigures Pipeline::take_figures() noexcept {
+PipelineFigures Pipeline::take_figures() {
   const auto camera = [](const CaptureThread& thread) {
-    return CameraFigures{thread.state(), thread.frames(), thread.sequence_gaps()};
+    return CameraFigures{thread.report(), thread.frames(), thread.sequence_gaps(), thread.mean_brightness()};
   };
-  return {camera(*left_thread_), camera(*right_thread_), desk_.counts(), publisher_.take_figures()};
+  PipelineFigures figures{camera(*left_thread_), camera(*right_thread_), desk_.counts(),
+                          publisher_.take_figures()};
+  if (raw_publisher_) figures.published.messages_refused += raw_publisher_->refused();
+  return figures;
 }
 
 void Pipeline::matching_thread() noexcept {
@@ -101,6 +108,7 @@ void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
   if (speckle_filter_) filter_frame(output);
   facts.matched_ns = monotonic_ns();
   publisher_.frame_final(output);
+  if (raw_publisher_) raw_publisher_->offer(pair);  // after what is urgent
 }
 
 // The tables are made when the first frame shows how its pixels lie in memory, and again if that ever

@@ -16,14 +16,16 @@
 #include "daemon/pipeline/capture_thread.h"
 #include "daemon/pipeline/frame_publisher.h"
 #include "daemon/pipeline/pairing_desk.h"
+#include "daemon/pipeline/raw_publisher.h"
 
 namespace stereod {
 
 /// What one camera did since the start.
 struct CameraFigures {
-  SourceState state = SourceState::kWaiting;
+  SourceReport report;
   std::int64_t frames = 0;
   std::int64_t sequence_gaps = 0;
+  double mean_brightness = 0;  ///< of the latest frame, 0…255
 };
 
 /// What the pipeline did; see PublisherFigures for what "recent" means.
@@ -53,7 +55,7 @@ class Pipeline {
   /// True once the cameras have played to their end and everything is published.
   bool finished() const noexcept { return finished_; }
 
-  PipelineFigures take_figures() noexcept;
+  PipelineFigures take_figures();
 
   const Rig& rig() const { return rig_; }
   const Config& config() const { return config_; }
@@ -76,6 +78,7 @@ class Pipeline {
   WorkerPool pool_;
   std::vector<BandWorker> workers_;
   std::optional<SpeckleFilter> speckle_filter_;
+  std::optional<RawPublisher> raw_publisher_;
   std::optional<RectifyMap> left_map_, right_map_;
   std::int64_t next_frame_ = 0;
   std::atomic<bool> stopping_{false};

@@ -12,25 +12,18 @@
 namespace stereod {
 namespace {
 
-constexpr std::size_t kLargestStatus = 8192;
-
-const char* state_name(SourceState state) {
-  switch (state) {
-    case SourceState::kWaiting:
-      return "waiting";
-    case SourceState::kStreaming:
-      return "streaming";
-    case SourceState::kFinished:
-      return "finished";
-  }
-  return "?";
-}
+constexpr std::size_t kLargestStatus = 16'384;
+constexpr std::size_t kLongestText = 500;
 
 std::string missing_cameras(const Activity& activity) {
   if (activity.left_frames && activity.right_frames) return {};
   if (activity.left_frames) return "no frames from the right camera";
   if (activity.right_frames) return "no frames from the left camera";
   return "no frames from either camera";
+}
+
+void add_reason(std::string& reason, const SourceReport& camera) {
+  if (!camera.reason.empty()) reason += "; " + camera.reason.substr(0, kLongestText);
 }
 
 // A second, or two and a half frames of a slow camera.
@@ -72,9 +65,9 @@ StatusReporter::StatusReporter(Pipeline& pipeline, MessageBus& bus)
   status_.version = kVersion;
   status_.matcher = pipeline.matcher_description();
   status_.left.name = "left";
-  status_.left.device = pipeline.rig().left_name.substr(0, 500);
+  status_.left.device = pipeline.rig().left_name.substr(0, kLongestText);
   status_.right.name = "right";
-  status_.right.device = pipeline.rig().right_name.substr(0, 500);
+  status_.right.device = pipeline.rig().right_name.substr(0, kLongestText);
 }
 
 void StatusReporter::report() {
@@ -87,13 +80,19 @@ void StatusReporter::report() {
   const ServiceState state = std::exchange(first_, false)
                                  ? ServiceState{"starting", "waiting for the first frames"}
                                  : judge_state(activity, calibrated);
-  if (state.name != status_.state || state.reason != status_.reason) {
+  if (state.name != logged_.name || state.reason != logged_.reason) {
     spdlog::info("state: {}{}{}", state.name, state.reason.empty() ? "" : ": ", state.reason);
+    logged_ = state;
   }
 
   status_.utime = wall_us();
   status_.state = state.name;
   status_.reason = state.reason;
+  // The cameras have logged their own reasons.
+  if (state.name == "waiting_for_cameras") {
+    if (!activity.left_frames) add_reason(status_.reason, now.left.report);
+    if (!activity.right_frames) add_reason(status_.reason, now.right.report);
+  }
   status_.uptime_s = static_cast<double>(now_ns - started_ns_) * 1e-9;
   status_.fps_in = static_cast<double>(now.pairing.pairs - before_.pairing.pairs) / seconds;
   status_.fps_out = static_cast<double>(now.published.frames - before_.published.frames) / seconds;
@@ -105,6 +104,7 @@ void StatusReporter::report() {
   status_.publish_errors = now.published.messages_refused;
   status_.skew_ms_median = now.published.skew_ms.percentile(0.5);
   status_.skew_ms_p95 = now.published.skew_magnitude_ms.percentile(0.95);
+  status_.skew_ms_max = now.published.skew_magnitude_ms.percentile(1);
   status_.latency_ms_median = now.published.latency_ms.percentile(0.5);
   status_.latency_ms_p95 = now.published.latency_ms.percentile(0.95);
   status_.latency_ms_max = now.published.latency_ms.percentile(1);
@@ -112,6 +112,12 @@ void StatusReporter::report() {
   status_.valid_fraction = now.published.valid_fraction;
   status_.cpu_percent = 100 * (cpu_s - before_cpu_s_) / seconds;
   status_.rss_mb = process_rss_mb();
+  if (const auto& cameras = pipeline_.rig().cameras) {
+    const PhaseReport phase = cameras->phase();
+    status_.phase_alignment = name_of(phase.state);
+    status_.phase_skew_ms = phase.skew_ms;
+    status_.phase_restarts = phase.restarts;
+  }
   fill_camera(status_.left, now.left, before_.left, seconds);
   fill_camera(status_.right, now.right, before_.right, seconds);
   encoder_.publish(bus_, status_channel_.c_str(), status_);
@@ -138,8 +144,20 @@ Activity StatusReporter::recent_activity(const PipelineFigures& now, std::int64_
 
 void StatusReporter::fill_camera(camera_status_t& message, const CameraFigures& now,
                                  const CameraFigures& before, double seconds) {
-  message.state = state_name(now.state);
-  message.reason = now.state == SourceState::kFinished ? "the recording has played to its end" : "";
+  const SourceReport& report = now.report;
+  message.state = report.state;
+  message.reason = report.reason.substr(0, kLongestText);
+  message.connected = report.device.substr(0, kLongestText);
+  message.format = report.format;
+  message.note = report.note.substr(0, kLongestText);
+  message.last_fault = report.last_fault.substr(0, kLongestText);
+  message.last_fault_utime = report.last_fault_ns > 0 ? wall_us_of(report.last_fault_ns) : 0;
+  message.mean_brightness = now.mean_brightness;
+  message.decode_errors = report.decode_errors;
+  message.frames_incomplete = report.incomplete;
+  message.frames_bad_stamp = report.bad_stamps;
+  message.frames_superseded = report.superseded;
+  message.reconnects = report.reconnects;
   message.fps = static_cast<double>(now.frames - before.frames) / seconds;
   message.frames = now.frames;
   message.sequence_gaps = now.sequence_gaps;

@@ -54,6 +54,7 @@ class StatusReporter {
   } last_ns_;
   const std::int64_t patience_ns_;  // how long nothing may happen before it counts as missing
   bool first_ = true;
+  ServiceState logged_;
   std::int64_t started_ns_, before_ns_;
   double before_cpu_s_;
 };

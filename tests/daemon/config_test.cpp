@@ -101,6 +101,44 @@ log: {level: debug}
   EXPECT_EQ(config.log_level, "debug");
 }
 
+TEST_F(ConfigFile, EveryKeyOfTheCamerasIsRead) {
+  const Config config = read(R"(
+cameras:
+  source: v4l2
+  fps: 15
+  v4l2:
+    left: /dev/v4l/by-path/a
+    right: serial:77
+    width: 1280
+    height: 720
+    format: mjpeg
+    exposure: lock
+    controls: {gain: 5, power_line_frequency: 1}
+    left_controls: {brightness: -3}
+    right_controls: {brightness: 4}
+    align: always
+    target_skew_ms: 1.5
+    align_tries: 3
+lcm: {raw_images: true, raw_images_per_second: 0.5}
+)");
+  const V4l2Config& v4l2 = config.cameras.v4l2;
+  EXPECT_EQ(config.cameras.source, SourceKind::kV4l2);
+  EXPECT_EQ(v4l2.left, "/dev/v4l/by-path/a");
+  EXPECT_EQ(v4l2.right, "serial:77");
+  EXPECT_EQ(v4l2.width, 1280);
+  EXPECT_EQ(v4l2.height, 720);
+  EXPECT_EQ(v4l2.format, "mjpeg");
+  EXPECT_EQ(v4l2.exposure, ExposureMode::kLock);
+  EXPECT_EQ(v4l2.controls, (ControlValues{{"gain", 5}, {"power_line_frequency", 1}}));
+  EXPECT_EQ(v4l2.left_controls, (ControlValues{{"brightness", -3}}));
+  EXPECT_EQ(v4l2.right_controls, (ControlValues{{"brightness", 4}}));
+  EXPECT_EQ(v4l2.align, AlignMode::kAlways);
+  EXPECT_EQ(v4l2.target_skew_ms, 1.5);
+  EXPECT_EQ(v4l2.align_tries, 3);
+  EXPECT_TRUE(config.lcm.raw_images);
+  EXPECT_EQ(config.lcm.raw_images_per_second, 0.5);
+}
+
 TEST_F(ConfigFile, ToleranceIsHalfAFrameUnlessSet) {
   EXPECT_EQ(read("cameras: {source: synthetic, fps: 50}").cameras.pairing_tolerance_ns(), 10'000'000);
 }
@@ -121,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadConfig{"cameras:\nlcm: {}\n", "stereod.yaml:1: cameras.source: is missing"},
         BadConfig{"cameras:\n  fps: 3\n", "stereod.yaml:2: cameras.source: is missing"},
         BadConfig{"cameras:\n  source: webcam\n",
-                  "stereod.yaml:2: cameras.source: found 'webcam', allowed are replay and synthetic"},
+                  "stereod.yaml:2: cameras.source: found 'webcam', allowed are v4l2, replay and synthetic"},
         BadConfig{"cameras:\n  source: synthetic\n  speed: 3\n",
                   "stereod.yaml:3: cameras.speed: is not a known key; the nearest known key is 'fps'"},
         BadConfig{"cameras:\n  source: synthetic\nmatcher:\n  dispariites: 64\n",
@@ -169,6 +207,34 @@ INSTANTIATE_TEST_SUITE_P(
                   "stereod.yaml:1: cameras.fps: found '-1', allowed are numbers from 0 to 240"},
         BadConfig{"cameras: {source: synthetic, fps: .nan}\n",
                   "stereod.yaml:1: cameras.fps: found '.nan', allowed are numbers from 0 to 240"},
+        BadConfig{"cameras: {source: v4l2, fps: 0.5}\n",
+                  "stereod.yaml:1: cameras.fps: found a rate below 1, allowed for cameras are 1 to 240"},
+        BadConfig{"cameras:\n  source: v4l2\n  v4l2: {left: /dev/video0, right: /dev/video0}\n",
+                  "stereod.yaml:3: cameras.v4l2.right: found '/dev/video0', which is the left camera; name "
+                  "another one"},
+        BadConfig{"cameras:\n  source: v4l2\n  v4l2: {left: /dev/video0}\n",
+                  "stereod.yaml: cameras.v4l2.right: found 'auto' for one camera only, allowed is auto for "
+                  "both or a name for each"},
+        BadConfig{"cameras:\n  source: v4l2\n  v4l2: {left: ''}\n",
+                  "stereod.yaml:3: cameras.v4l2.left: found '', allowed are auto, a name below "
+                  "/dev/v4l/by-path or by-id, a node such as /dev/video0, and serial:NUMBER; 'stereod "
+                  "--list-cameras' shows them"},
+        BadConfig{"cameras:\n  source: v4l2\n  v4l2: {format: rgb}\n",
+                  "stereod.yaml:3: cameras.v4l2.format: found 'rgb', allowed are auto, grey, nv12, yu12, "
+                  "yuyv, uyvy, y10, y16 and mjpeg"},
+        BadConfig{"cameras:\n  source: v4l2\n  v4l2: {exposure: manual}\n",
+                  "stereod.yaml:3: cameras.v4l2.exposure: found 'manual', allowed are auto, lock and follow"},
+        BadConfig{"cameras:\n  source: v4l2\n  v4l2:\n    controls: {gain: high}\n",
+                  "stereod.yaml:4: cameras.v4l2.controls.gain: found 'high', allowed are whole numbers from "
+                  "-2147483648 to 2147483647"},
+        BadConfig{"cameras:\n  source: v4l2\n  v4l2:\n    controls: [gain]\n",
+                  "stereod.yaml:4: cameras.v4l2.controls: found a list, allowed is a map of keys and values"},
+        BadConfig{"cameras:\n  source: v4l2\n  v4l2: {align: maybe}\n",
+                  "stereod.yaml:3: cameras.v4l2.align: found 'maybe', allowed are never, start and always"},
+        BadConfig{"cameras:\n  source: v4l2\n  v4l2: {widh: 3}\n",
+                  "stereod.yaml:3: cameras.v4l2.widh: is not a known key; the nearest known key is 'width'"},
+        BadConfig{"cameras: {source: synthetic}\nlcm:\n  raw_images_per_second: 0\n",
+                  "stereod.yaml:3: lcm.raw_images_per_second: found '0', allowed are numbers from 0.1 to 60"},
         BadConfig{"cameras: {source: synthetic\n",
                   "stereod.yaml:2: not valid YAML: end of map flow not found"},
         BadConfig{"- a\n- b\n", "stereod.yaml:1: expected a map of keys and values, found a list"},
@@ -201,6 +267,19 @@ TEST_F(ConfigFile, TheShippedFileSaysTheDefaults) {
   EXPECT_EQ(shipped.cameras.fps, defaults.cameras.fps);
   EXPECT_EQ(shipped.cameras.width, defaults.cameras.width);
   EXPECT_EQ(shipped.cameras.height, defaults.cameras.height);
+  EXPECT_EQ(shipped.cameras.source, SourceKind::kV4l2);
+  EXPECT_EQ(shipped.cameras.v4l2.left, defaults.cameras.v4l2.left);
+  EXPECT_EQ(shipped.cameras.v4l2.right, defaults.cameras.v4l2.right);
+  EXPECT_EQ(shipped.cameras.v4l2.width, defaults.cameras.v4l2.width);
+  EXPECT_EQ(shipped.cameras.v4l2.height, defaults.cameras.v4l2.height);
+  EXPECT_EQ(shipped.cameras.v4l2.format, defaults.cameras.v4l2.format);
+  EXPECT_EQ(shipped.cameras.v4l2.exposure, defaults.cameras.v4l2.exposure);
+  EXPECT_TRUE(shipped.cameras.v4l2.controls.empty());
+  EXPECT_EQ(shipped.cameras.v4l2.align, defaults.cameras.v4l2.align);
+  EXPECT_EQ(shipped.cameras.v4l2.target_skew_ms, defaults.cameras.v4l2.target_skew_ms);
+  EXPECT_EQ(shipped.cameras.v4l2.align_tries, defaults.cameras.v4l2.align_tries);
+  EXPECT_EQ(shipped.lcm.raw_images, defaults.lcm.raw_images);
+  EXPECT_EQ(shipped.lcm.raw_images_per_second, defaults.lcm.raw_images_per_second);
   EXPECT_EQ(shipped.matcher, defaults.matcher);
   EXPECT_EQ(shipped.lcm.url, defaults.lcm.url);
   EXPECT_EQ(shipped.lcm.prefix, defaults.lcm.prefix);

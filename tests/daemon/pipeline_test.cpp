@@ -30,6 +30,10 @@ class FakeBus final : public MessageBus {
     if (keep_ && std::strstr(channel, "_FRAME") != nullptr) decode(data, size, frame_messages_);
     if (keep_ && std::strstr(channel, "_DISPARITY") != nullptr) decode(data, size, row_messages_);
     if (keep_ && std::strstr(channel, "_STATUS") != nullptr) decode(data, size, status_messages_);
+    if (std::strstr(channel, "_RAW") != nullptr) {
+      ++raw_images_;
+      if (keep_) decode(data, size, raw_images_of_[channel]);
+    }
     changed_.notify_all();
     return !refuse_;
   }
@@ -57,6 +61,18 @@ class FakeBus final : public MessageBus {
     const std::lock_guard lock(mutex_);
     return status_messages_;
   }
+  std::vector<image_t> raw_images(const std::string& channel) {
+    const std::lock_guard lock(mutex_);
+    return raw_images_of_[channel];
+  }
+  int raw_images_seen() {
+    const std::lock_guard lock(mutex_);
+    return raw_images_;
+  }
+  void wait_for_raw_images(int count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return raw_images_ >= count; });
+  }
   void refuse() { refuse_ = true; }
 
  private:
@@ -72,6 +88,8 @@ class FakeBus final : public MessageBus {
   std::mutex mutex_;
   std::condition_variable changed_;
   int frames_ = 0;
+  int raw_images_ = 0;
+  std::map<std::string, std::vector<image_t>> raw_images_of_;
   std::vector<frame_t> frame_messages_;
   std::vector<disparity_rows_t> row_messages_;
   std::vector<status_t> status_messages_;
@@ -199,6 +217,71 @@ TEST(Pipeline, AllocatesNothingPerFrame) {
       bus.wait_for_more_frames(20);
       EXPECT_EQ(counter.count(), 0u) << preset << ", " << name_of(implementation);
     }
+  }
+}
+
+TEST(Pipeline, PublishesWhatTheCamerasSeeOnRequest) {
+  Config config = config_for("fast", 1);
+  config.lcm.raw_images = true;
+  config.lcm.raw_images_per_second = 60;
+  FakeBus bus(true);
+  {
+    Pipeline pipeline(config, open_rig(config), bus);
+    bus.wait_for_raw_images(6);
+    pipeline.stop();
+  }
+  const std::vector<image_t> left = bus.raw_images("STEREO_LEFT_RAW");
+  const std::vector<image_t> right = bus.raw_images("STEREO_RIGHT_RAW");
+  ASSERT_GE(left.size(), 3u);
+  ASSERT_GE(right.size(), 3u);
+  const SyntheticScene scene(kSize);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(left[i].utime, right[i].utime) << "the two of a pair are told by their times";
+    for (const image_t* image : {&left[i], &right[i]}) {
+      EXPECT_EQ(image->width, kSize.width);
+      EXPECT_EQ(image->height, kSize.height);
+      EXPECT_EQ(image->row_stride, kSize.width);
+      EXPECT_EQ(image->pixelformat, 1497715271);
+      ASSERT_EQ(image->size, kSize.width * kSize.height);
+      bool found = false;
+      for (int n = 0; n < scene.frames() && !found; ++n) {
+        const GreyImage seen = image == &left[i] ? scene.render_left(n) : scene.render_right(n);
+        bool same = true;
+        for (int y = 0; y < kSize.height && same; ++y) {
+          same = std::memcmp(seen.row(y), image->data.data() + y * kSize.width,
+                             static_cast<std::size_t>(kSize.width)) == 0;
+        }
+        found = same;
+      }
+      EXPECT_TRUE(found) << "the picture is one of the scene's";
+    }
+  }
+}
+
+// What receivers know a type by. The two numbers are those of libbot's bot_core types.
+TEST(RawImages, HaveTheFingerprintOfBotCoreImages) {
+  const auto turned = [](std::uint64_t hash) { return hash << 1 | hash >> 63; };
+  const std::uint64_t metadata = turned(0x4d25b1a682bbfdc7U);
+  EXPECT_EQ(static_cast<std::uint64_t>(image_t::getHash()), turned(0x6fee6cb20472ff6aU + metadata));
+}
+
+TEST(Pipeline, RawImagesAreOffByDefaultAndAllocateNothing) {
+  for (const bool wanted : {false, true}) {
+    Config config = config_for("fast", 1);
+    config.lcm.raw_images = wanted || config.lcm.raw_images;
+    config.lcm.raw_images_per_second = 60;
+    FakeBus bus(false);
+    Pipeline pipeline(config, open_rig(config), bus);
+    bus.wait_for_frames(3);
+    if (wanted) bus.wait_for_raw_images(2);
+    const AllocationCounter counter;
+    bus.wait_for_more_frames(20);
+    if (wanted) bus.wait_for_raw_images(6);
+    if (AllocationCounter::supported()) {
+      EXPECT_EQ(counter.count(), 0u);
+    }
+    pipeline.stop();
+    EXPECT_EQ(bus.raw_images_seen() > 0, wanted);
   }
 }
 

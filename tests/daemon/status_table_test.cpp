@@ -44,6 +44,29 @@ TEST(TextTable, AlignsColumns) {
   EXPECT_EQ(joined(table.lines()), "a         1\nlong  12345\nend\n");
 }
 
+/// Counts are numbered from `count` + 1 on.
+camera_status_t camera(const std::string& name, const std::string& device, const std::string& state,
+                       const std::string& reason, double fps, std::int64_t count) {
+  camera_status_t c{};
+  c.name = name;
+  c.device = device;
+  c.connected = "now " + device;
+  c.format = "fmt-" + name;
+  c.state = state;
+  c.reason = reason;
+  c.note = "note-" + name;
+  c.fps = fps;
+  c.mean_brightness = static_cast<double>(count) / 10 + 0.9;
+  c.frames = ++count;
+  c.sequence_gaps = ++count;
+  c.decode_errors = ++count;
+  c.reconnects = ++count;
+  c.frames_incomplete = ++count;
+  c.frames_bad_stamp = ++count;
+  c.frames_superseded = ++count;
+  return c;
+}
+
 TEST(StatusTable, ShowsEveryField) {
   status_t s{};
   s.utime = 1'700'000'000'000'000;
@@ -62,6 +85,10 @@ TEST(StatusTable, ShowsEveryField) {
   s.publish_errors = 1006;
   s.skew_ms_median = -1.11;
   s.skew_ms_p95 = 2.22;
+  s.skew_ms_max = 7.77;
+  s.phase_alignment = "given up";
+  s.phase_skew_ms = 8.88;
+  s.phase_restarts = 1007;
   s.latency_ms_median = 3.33;
   s.latency_ms_p95 = 4.44;
   s.latency_ms_max = 5.55;
@@ -69,8 +96,10 @@ TEST(StatusTable, ShowsEveryField) {
   s.valid_fraction = 0.777;
   s.cpu_percent = 88.8;
   s.rss_mb = 99.9;
-  s.left = camera_status_t{"left", "/dev/a", "streaming", "", 31.3, 2001, 2002, 2003, 2004};
-  s.right = camera_status_t{"right", "/dev/b", "waiting", "unplugged", 32.4, 3001, 3002, 3003, 3004};
+  s.left = camera("left", "/dev/a", "streaming", "", 31.3, 2000);
+  s.right = camera("right", "/dev/b", "waiting", "unplugged", 32.4, 3000);
+  s.right.last_fault = "pulled out";
+  s.right.last_fault_utime = s.utime - 42'000'000;
   const std::vector<std::string> lines = status_lines(s);
   const std::string text = joined(lines);
   for (const char* expected : {"degraded",   "the right camera sends nothing",
@@ -92,7 +121,16 @@ TEST(StatusTable, ShowsEveryField) {
                                "2003",       "2004",
                                "32.4",       "3001",
                                "3002",       "3003",
-                               "3004"}) {
+                               "3004",       "7.77",
+                               "given up",   "8.88",
+                               "1007",       "2005",
+                               "2006",       "2007",
+                               "3005",       "3006",
+                               "3007",       "200.9",
+                               "300.9",      "now /dev/a",
+                               "now /dev/b", "fmt-left",
+                               "fmt-right",  "note-left",
+                               "note-right", "42 s ago: pulled out"}) {
     EXPECT_NE(text.find(expected), std::string::npos) << expected << " is missing from\n" << text;
   }
   EXPECT_EQ(lines[0].substr(0, 5), "state");

@@ -18,6 +18,7 @@
 #include "daemon/tools/tap/frame_assembler.h"
 #include "daemon/tools/tap/frame_listener.h"
 #include "daemon/tools/tap/lcm_receiver.h"
+#include "daemon/tools/tap/message_decoder.h"
 #include "tests/support/network.h"
 #include "tests/support/recorded_pairs.h"
 #include "tests/support/run_program.h"
@@ -163,6 +164,36 @@ TEST_F(StereodTest, InterruptEndsItCleanly) {
   const ProgramRun run = stereod.wait();
   EXPECT_EQ(run.status, 0);
   EXPECT_NE(run.err.find("<6>SIGINT came; stopping"), std::string::npos) << run.err;
+}
+
+TEST_F(StereodTest, MissingCamerasAreAStateAndNoReasonToEnd) {
+  if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
+  const std::filesystem::path file = directory_ / "cameras.yaml";
+  std::ofstream(file) << "cameras:\n  source: v4l2\n  v4l2: {left: 'serial:NOT-L', right: 'serial:NOT-R'}\n"
+                      << "lcm: {url: \"" << kUrl << "\", prefix: E2E}\n";
+  LcmReceiver receiver(kUrl);
+  status_t status;
+  receiver.subscribe("E2E_STATUS", [&](std::span<const std::byte> bytes) { decode_message(bytes, status); });
+  ChildProgram stereod(kBin / "stereod", {"--config", file.string()}, directory_.path());
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (status.state != "waiting_for_cameras" && std::chrono::steady_clock::now() < deadline) {
+    receiver.receive(std::chrono::milliseconds(100));
+  }
+  EXPECT_EQ(status.state, "waiting_for_cameras");
+  EXPECT_EQ(
+      status.reason,
+      "no frames from either camera; no camera with the serial number NOT-L; plug it in; no camera with "
+      "the serial number NOT-R; plug it in");
+  EXPECT_EQ(status.left.state, "absent");
+  EXPECT_EQ(status.right.state, "absent");
+  stereod.send(SIGTERM);
+  EXPECT_EQ(stereod.wait().status, 0);
+}
+
+TEST_F(StereodTest, ListsCameras) {
+  const ProgramRun run = run_stereod({"--list-cameras"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out, "");
 }
 
 // A pipe that is full and that nobody reads, and then one that nobody can read any more.

@@ -25,9 +25,9 @@ template <>
 inline constexpr std::string_view kWireLayout<camera_info_t> = "diibddddddiis";
 template <>
 inline constexpr std::string_view kWireLayout<status_t> =
-    "dssssdddddddddddddddddd"
-    "ssssddddd"
-    "ssssddddd";
+    "dssssdddddddddddddddddddsdd"
+    "ssssssssdddddddddd"
+    "ssssssssdddddddddd";
 
 /// True if the bytes are a fingerprint and exactly the fields of `layout`, every length inside the bytes.
 bool has_layout(std::span<const std::byte> bytes, std::string_view layout) noexcept;

@@ -36,25 +36,46 @@ std::string frames(const camera_status_t& camera) {
   return number(camera.frames) + ", " + fixed(camera.fps, 1) + " /s now";
 }
 
+std::string phase(const status_t& s) {
+  if (s.phase_alignment.empty()) return "-";
+  return printable(s.phase_alignment) + ", skew " + fixed(s.phase_skew_ms, 2) + " ms, " +
+         number(s.phase_restarts) + " restarts";
+}
+
 Lines head(const status_t& s) {
   TextTable table({{.min_width = kLabelWidth}, {.max_width = kTextWidth}});
   table.add_row({"state", or_dash(s.state)});
   table.add_row({"reason", or_dash(s.reason)});
+  table.add_row({"phase alignment", phase(s)});
   table.add_row({"matcher", or_dash(s.matcher)});
   table.add_row({"program", "stereod " + or_dash(s.version) + ", up " + duration_in_words(s.uptime_s) +
                                 ", said at " + time_of_day(s.utime)});
   return table.lines();
 }
 
-Lines cameras(const camera_status_t& l, const camera_status_t& r) {
+std::string last_fault(const camera_status_t& camera, std::int64_t now_us) {
+  if (camera.last_fault_utime <= 0) return "-";
+  const double ago_s = (static_cast<double>(now_us) - static_cast<double>(camera.last_fault_utime)) * 1e-6;
+  return duration_in_words(ago_s) + " ago: " + or_dash(camera.last_fault);
+}
+
+Lines cameras(const camera_status_t& l, const camera_status_t& r, std::int64_t now_us) {
   TextTable table({{.min_width = kLabelWidth}, {.max_width = kCameraWidth}, {.max_width = kCameraWidth}});
   table.add_row({"camera", or_dash(l.name), or_dash(r.name)});
   table.add_row({"  state", or_dash(l.state), or_dash(r.state)});
   table.add_row({"  reason", or_dash(l.reason), or_dash(r.reason)});
-  table.add_row({"  device", or_dash(l.device), or_dash(r.device)});
+  table.add_row({"  last fault", last_fault(l, now_us), last_fault(r, now_us)});
+  table.add_row({"  note", or_dash(l.note), or_dash(r.note)});
+  table.add_row({"  configured", or_dash(l.device), or_dash(r.device)});
+  table.add_row({"  device", or_dash(l.connected), or_dash(r.connected)});
+  table.add_row({"  format", or_dash(l.format), or_dash(r.format)});
+  table.add_row({"  brightness", fixed(l.mean_brightness, 1), fixed(r.mean_brightness, 1)});
   table.add_row({"  frames", frames(l), frames(r)});
   table.add_row({"  sequence gaps", number(l.sequence_gaps), number(r.sequence_gaps)});
   table.add_row({"  decode errors", number(l.decode_errors), number(r.decode_errors)});
+  table.add_row({"  incomplete", number(l.frames_incomplete), number(r.frames_incomplete)});
+  table.add_row({"  bad stamps", number(l.frames_bad_stamp), number(r.frames_bad_stamp)});
+  table.add_row({"  superseded", number(l.frames_superseded), number(r.frames_superseded)});
   table.add_row({"  reconnects", number(l.reconnects), number(r.reconnects)});
   return table.lines();
 }
@@ -66,7 +87,7 @@ Lines times(const status_t& s) {
   table.add_row(
       {"  latency", fixed(s.latency_ms_median, 2), fixed(s.latency_ms_p95, 2), fixed(s.latency_ms_max, 2)});
   table.add_row({"  matching", fixed(s.match_ms_median, 2)});
-  table.add_row({"  skew", fixed(s.skew_ms_median, 2), fixed(s.skew_ms_p95, 2)});
+  table.add_row({"  skew", fixed(s.skew_ms_median, 2), fixed(s.skew_ms_p95, 2), fixed(s.skew_ms_max, 2)});
   return table.lines();
 }
 
@@ -109,7 +130,7 @@ Lines beside(const Lines& left, const Lines& right) {
 std::vector<std::string> status_lines(const status_t& status) {
   Lines lines = head(status);
   lines.emplace_back();
-  append(lines, cameras(status.left, status.right));
+  append(lines, cameras(status.left, status.right, status.utime));
   lines.emplace_back();
   append(lines, beside(times(status), load(status)));
   lines.emplace_back();

@@ -1,0 +1,88 @@
+// What the two cameras of a rig have to know of each other.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/pairing.h"
+#include "core/phase_alignment.h"
+#include "daemon/capture/v4l2/camera_stream.h"
+#include "daemon/config/config.h"
+
+namespace stereod {
+
+/// What a camera's exposure is made of; what the camera does not have is missing.
+struct ExposureValues {
+  std::optional<std::int32_t> time;  ///< exposure_time_absolute, 100 µs
+  std::optional<std::int32_t> gain;
+  friend bool operator==(const ExposureValues&, const ExposureValues&) = default;
+};
+
+/// How far the phase alignment is, for the status message.
+struct PhaseReport {
+  PhaseState state = PhaseState::kWaiting;
+  double skew_ms = 0;
+  std::int64_t restarts = 0;
+};
+std::string_view name_of(PhaseState state);
+
+/// Shared by the two cameras' threads.
+class CameraPair {
+ public:
+  explicit CameraPair(const CamerasConfig& config);
+
+  /// `device` is the other camera's already: then it is not taken, and this is false. Empty: none any more.
+  bool take_device(Side side, const std::string& device);
+
+  /// What a camera was set up as, and whether frames come.
+  void set_facts(Side side, const StreamFacts& facts);
+  void set_flowing(Side side, bool flowing);
+
+  /// The phase alignment (see there): a stream was started or has stopped, a frame came. True: the camera of
+  /// this frame has to be restarted, at `best_start` if it can be from `ready_ns` on.
+  void started(Side side, std::int64_t at_ns) noexcept;
+  void stopped(Side side) noexcept;
+  bool frame(Side side, std::int64_t captured_ns) noexcept;
+  std::int64_t best_start(std::int64_t ready_ns) noexcept;
+  PhaseReport phase() noexcept;
+
+  /// The exposure that both cameras should have; nothing while none is known.
+  void set_exposure(const ExposureValues& values) noexcept;
+  std::optional<ExposureValues> exposure() noexcept;
+
+  /// Where on the ladder of formats both cameras stand. It only goes down, and both go together, because two
+  /// cameras on one bus share its bandwidth and because matching needs two equal pictures.
+  int ladder_step() const noexcept { return ladder_step_; }
+  /// `side` cannot get the bandwidth it needs at `step`. True: both have now to be set up further down.
+  /// False: there is no further step.
+  bool step_down(Side side, int step);
+
+  /// Whether the other camera streams on the bus that `side` is on.
+  bool other_flows_on_same_bus(Side side);
+
+  /// Says which bus is full, what both cameras ask of it, and what to do.
+  std::string bandwidth_sentence(Side side);
+
+ private:
+  struct Camera {
+    std::string device;
+    StreamFacts facts;
+    bool flowing = false;
+  };
+  Camera& of(Side side) { return cameras_[side == Side::kLeft ? 0 : 1]; }
+
+  const CamerasConfig config_;
+  std::mutex mutex_;
+  Camera cameras_[2];
+  std::atomic<int> ladder_step_{0};
+  PhaseAlignment phase_;
+  std::optional<ExposureValues> exposure_;
+};
+
+/// The bus of a device by its bus_info: "usb-0000:00:14.0-3.1" is on "usb-0000:00:14.0".
+std::string bus_of(const std::string& bus_info);
+
+}  // namespace stereod

@@ -1,0 +1,58 @@
+// Keeps two cameras' exposure as the configuration wants it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/pairing.h"
+#include "daemon/capture/v4l2/camera_controls.h"
+#include "daemon/capture/v4l2/camera_pair.h"
+
+namespace stereod {
+
+/// One for each camera, used by its thread. Matching compares grey values, so both pictures should be exposed
+/// alike:
+///   auto    leaves each camera to itself;
+///   follow  lets the left camera's automation work and copies what comes of it to the right one twice a
+///   second; lock    lets the left camera's automation work for two seconds, then fixes both cameras to what
+///   came of it
+///           for good; an exposure named in the configuration is used at once.
+/// The automatic lengthening of frames in dim light (exposure_dynamic_framerate) is switched off unless the
+/// configuration names it, because it halves the rate of one camera when it likes.
+class ExposureKeeper {
+ public:
+  ExposureKeeper(CameraPair& pair, Side side, const V4l2Config& config)
+      : pair_(pair), side_(side), config_(config) {}
+
+  /// Sets a camera up that was just opened; what did not take, in words.
+  std::string begin(VideoDevice& device, std::int64_t now_ns);
+
+  /// Does what is due, between two frames. Allocates nothing. True if a value did not take: see problem().
+  bool tick(VideoDevice& device, std::int64_t now_ns) noexcept;
+  std::string problem() const;
+
+  /// The exposure time as it was at begin(), ns; 0 if the camera does not say.
+  std::int64_t exposure_ns() const noexcept { return exposure_ns_; }
+
+ private:
+  static constexpr std::int64_t kPeriod = 500'000'000;
+  static constexpr std::int64_t kSettle = 2'000'000'000;
+
+  ExposureValues read(VideoDevice& device) noexcept;
+  void fix(VideoDevice& device, const ExposureValues& values) noexcept;
+  void go_manual(VideoDevice& device) noexcept;
+
+  CameraPair& pair_;
+  const Side side_;
+  const V4l2Config config_;
+  bool has_time_ = false, has_gain_ = false, has_time_mode_ = false, has_gain_mode_ = false;
+  bool fixed_by_config_ = false;
+  std::int64_t next_ns_ = 0;
+  std::int64_t settled_ns_ = 0;
+  std::int64_t exposure_ns_ = 0;
+  std::optional<ExposureValues> applied_;
+  ExposureValues got_;
+  bool told_ = false;
+};
+
+}  // namespace stereod

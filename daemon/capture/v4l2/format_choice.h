@@ -1,0 +1,31 @@
+// Which format and rate a camera is asked for.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "daemon/capture/v4l2/pixel_format.h"
+
+namespace stereod {
+
+/// A format that a camera offers at the wanted size.
+struct OfferedFormat {
+  std::uint32_t pixels = 0;
+  double fastest = 0;  ///< frames a second it can give; 0: it does not say
+};
+
+struct FormatRequest {
+  std::uint32_t pixels = 0;  ///< what is asked of the driver, or of libv4l2
+  double fps = 0;
+  bool convert = false;  ///< through libv4l2
+};
+
+/// Every request worth trying, the best first. `name`: auto or a format's name. For auto: the uncompressed
+/// format that puts the least on the bus, then MJPEG, then a half and a quarter of the rate (not below 5 a
+/// second); a format that reaches the rate comes before one that does not. What is not read here goes through
+/// libv4l2, after all others. For a name there is one request. Empty: nothing fits.
+std::vector<FormatRequest> format_ladder(const std::vector<OfferedFormat>& offers, const std::string& name,
+                                         double fps);
+
+}  // namespace stereod

@@ -1,0 +1,55 @@
+#include "daemon/capture/v4l2/luma_decoder.h"
+
+#include <turbojpeg.h>
+
+#include <algorithm>
+#include <new>
+
+namespace stereod {
+
+JpegLumaDecoder::JpegLumaDecoder() : turbojpeg_(tjInitDecompress()) {
+  if (turbojpeg_ == nullptr) throw std::bad_alloc();
+}
+
+JpegLumaDecoder::~JpegLumaDecoder() { tjDestroy(turbojpeg_); }
+
+bool JpegLumaDecoder::decode(std::span<const std::uint8_t> jpeg, ImageView<std::uint8_t> luma,
+                             FrameDrop& drop) noexcept {
+  if (jpeg.size() < 4 || jpeg[0] != 0xff || jpeg[1] != 0xd8 || jpeg[2] != 0xff) {
+    drop = FrameDrop::kNoJpeg;
+    return false;
+  }
+  const auto length = static_cast<unsigned long>(jpeg.size());
+  int width = 0, height = 0, subsampling = 0, colorspace = 0;
+  if (tjDecompressHeader3(turbojpeg_, jpeg.data(), length, &width, &height, &subsampling, &colorspace) != 0 ||
+      (colorspace != TJCS_YCbCr && colorspace != TJCS_GRAY)) {
+    drop = FrameDrop::kJpegDamaged;
+    return false;
+  }
+  if (Size{width, height} != luma.size()) {
+    drop = FrameDrop::kJpegSize;
+    return false;
+  }
+  // A progressive JPEG can have thousands of scans that decode to nothing; a camera's has one.
+  constexpr int kFlags = TJFLAG_LIMITSCANS;
+  const int status = tjDecompress2(turbojpeg_, jpeg.data(), length, luma.row(0), width,
+                                   static_cast<int>(luma.stride()), height, TJPF_GRAY, kFlags);
+  if (status != 0) {
+    drop = FrameDrop::kJpegDamaged;
+    return false;
+  }
+  return true;
+}
+
+void scale_y10(const std::uint8_t* words, std::size_t stride, ImageView<std::uint8_t> luma) noexcept {
+  for (int y = 0; y < luma.height(); ++y) {
+    const std::uint8_t* in = words + static_cast<std::size_t>(y) * stride;
+    std::uint8_t* out = luma.row(y);
+    for (std::ptrdiff_t x = 0; x < luma.width(); ++x) {
+      const int value = (in[2 * x] | in[2 * x + 1] << 8) >> 2;
+      out[x] = static_cast<std::uint8_t>(std::min(value, 255));
+    }
+  }
+}
+
+}  // namespace stereod

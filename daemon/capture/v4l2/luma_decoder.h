@@ -1,0 +1,36 @@
+// Buffers that are not 8-bit luma yet.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/image.h"
+#include "daemon/capture/v4l2/frame_check.h"
+
+namespace stereod {
+
+/// Decodes JPEGs to luma; one for each camera's thread. After the first picture nothing is allocated here
+/// (libjpeg-turbo has its own memory pools).
+class JpegLumaDecoder {
+ public:
+  /// Throws std::bad_alloc.
+  JpegLumaDecoder();
+  ~JpegLumaDecoder();
+  JpegLumaDecoder(const JpegLumaDecoder&) = delete;
+  JpegLumaDecoder& operator=(const JpegLumaDecoder&) = delete;
+
+  /// Decodes a JPEG of just the size of `luma`. JPEGs without Huffman tables, as UVC cameras send them, get
+  /// the standard ones. A header of another size is refused before anything is decoded; a truncated picture,
+  /// which libjpeg would fill up with grey, after. False: `drop` says why, and the picture is undefined.
+  bool decode(std::span<const std::uint8_t> jpeg, ImageView<std::uint8_t> luma, FrameDrop& drop) noexcept;
+
+ private:
+  void* turbojpeg_;
+};
+
+/// 16-bit little-endian words with 10 significant bits to 8-bit luma. `words` has rows of `stride` bytes, as
+/// many as `luma`.
+void scale_y10(const std::uint8_t* words, std::size_t stride, ImageView<std::uint8_t> luma) noexcept;
+
+}  // namespace stereod

@@ -1,0 +1,57 @@
+#include "daemon/capture/v4l2/pixel_format.h"
+
+#include <algorithm>
+#include <array>
+
+namespace stereod {
+namespace {
+
+// Of 16-bit words with 16 significant bits, little-endian, the high byte is the luma.
+constexpr std::array<PixelFormat, 9> kFormats{{
+    {fourcc('G', 'R', 'E', 'Y'), "grey", LumaWork::kNone, 1, 0, 1},
+    {fourcc('N', 'V', '1', '2'), "nv12", LumaWork::kNone, 1, 0, 1.5},
+    {fourcc('Y', 'U', '1', '2'), "yu12", LumaWork::kNone, 1, 0, 1.5},
+    {fourcc('Y', 'U', 'Y', 'V'), "yuyv", LumaWork::kNone, 2, 0, 2},
+    {fourcc('U', 'Y', 'V', 'Y'), "uyvy", LumaWork::kNone, 2, 1, 2},
+    {fourcc('Y', '1', '0', ' '), "y10", LumaWork::kScale, 2, 0, 2},
+    {fourcc('Y', '1', '6', ' '), "y16", LumaWork::kNone, 2, 1, 2},
+    {fourcc('M', 'J', 'P', 'G'), "mjpeg", LumaWork::kJpeg, 0, 0, 0},
+    {fourcc('J', 'P', 'E', 'G'), "mjpeg", LumaWork::kJpeg, 0, 0, 0},
+}};
+
+}  // namespace
+
+const PixelFormat* find_pixel_format(std::uint32_t pixels) {
+  const auto* found = std::find_if(kFormats.begin(), kFormats.end(),
+                                   [&](const PixelFormat& format) { return format.pixels == pixels; });
+  return found == kFormats.end() ? nullptr : found;
+}
+
+const PixelFormat* find_pixel_format(std::string_view name) {
+  const auto* found = std::find_if(kFormats.begin(), kFormats.end(),
+                                   [&](const PixelFormat& format) { return format.name == name; });
+  return found == kFormats.end() ? nullptr : found;
+}
+
+std::span<const PixelFormat> pixel_formats() { return kFormats; }
+
+std::size_t row_stride(const PixelFormat& format, const DeviceFormat& device) {
+  const auto least =
+      static_cast<std::size_t>(device.size.width) * static_cast<std::size_t>(format.bytes_per_pixel);
+  return std::max<std::size_t>(device.bytes_per_line, least);
+}
+
+std::size_t least_bytes(const PixelFormat& format, const DeviceFormat& device) {
+  if (format.work == LumaWork::kJpeg) return 0;
+  const auto width = static_cast<std::size_t>(device.size.width),
+             height = static_cast<std::size_t>(device.size.height);
+  if (height == 0) return 0;
+  return row_stride(format, device) * (height - 1) + width * static_cast<std::size_t>(format.bytes_per_pixel);
+}
+
+LumaView luma_in_place(const PixelFormat& format, const DeviceFormat& device, const std::uint8_t* buffer) {
+  return {buffer + format.luma_offset, device.size, static_cast<std::ptrdiff_t>(row_stride(format, device)),
+          format.bytes_per_pixel};
+}
+
+}  // namespace stereod

@@ -1,0 +1,73 @@
+#include "daemon/config/v4l2_section.h"
+
+#include <algorithm>
+#include <array>
+
+namespace stereod {
+namespace {
+
+constexpr std::array<std::string_view, 9> kFormats{"auto", "grey", "nv12", "yu12", "yuyv",
+                                                   "uyvy", "y10",  "y16",  "mjpeg"};
+
+std::optional<std::string> parse_format(std::string_view name) {
+  if (std::find(kFormats.begin(), kFormats.end(), name) == kFormats.end()) return std::nullopt;
+  return std::string(name);
+}
+
+std::optional<ExposureMode> parse_exposure(std::string_view name) {
+  if (name == "auto") return ExposureMode::kAuto;
+  if (name == "lock") return ExposureMode::kLock;
+  if (name == "follow") return ExposureMode::kFollow;
+  return std::nullopt;
+}
+
+std::optional<AlignMode> parse_align(std::string_view name) {
+  if (name == "never") return AlignMode::kNever;
+  if (name == "start") return AlignMode::kStart;
+  if (name == "always") return AlignMode::kAlways;
+  return std::nullopt;
+}
+
+std::string read_device(YamlSection& section, const std::string& key, const std::string& otherwise) {
+  const std::string device = section.text(key, otherwise);
+  if (device.empty() || device == "serial:") {
+    section.fail(key, "found '" + device +
+                          "', allowed are auto, a name below /dev/v4l/by-path or by-id, a node such as "
+                          "/dev/video0, and serial:NUMBER; 'stereod --list-cameras' shows them");
+  }
+  return device;
+}
+
+}  // namespace
+
+void read_v4l2_section(YamlSection& cameras_section, CamerasConfig& cameras) {
+  YamlSection section = cameras_section.section("v4l2");
+  V4l2Config& v4l2 = cameras.v4l2;
+  v4l2.left = read_device(section, "left", v4l2.left);
+  v4l2.right = read_device(section, "right", v4l2.right);
+  if (v4l2.left == v4l2.right && v4l2.left != "auto") {
+    section.fail("right", "found '" + v4l2.right + "', which is the left camera; name another one");
+  }
+  if ((v4l2.left == "auto") != (v4l2.right == "auto")) {
+    section.fail(v4l2.left == "auto" ? "left" : "right",
+                 "found 'auto' for one camera only, allowed is auto for both or a name for each");
+  }
+  v4l2.width = section.integer("width", v4l2.width, 64, 4096);
+  v4l2.height = section.integer("height", v4l2.height, 48, 4096);
+  v4l2.format = section.choice<std::string>(
+      "format", v4l2.format, "auto, grey, nv12, yu12, yuyv, uyvy, y10, y16 and mjpeg", parse_format);
+  v4l2.exposure =
+      section.choice<ExposureMode>("exposure", v4l2.exposure, "auto, lock and follow", parse_exposure);
+  v4l2.controls = section.integers("controls");
+  v4l2.left_controls = section.integers("left_controls");
+  v4l2.right_controls = section.integers("right_controls");
+  v4l2.align = section.choice<AlignMode>("align", v4l2.align, "never, start and always", parse_align);
+  v4l2.target_skew_ms = section.number("target_skew_ms", v4l2.target_skew_ms, 0.1, 100);
+  v4l2.align_tries = section.integer("align_tries", v4l2.align_tries, 1, 100);
+  section.finish();
+  if (cameras.source == SourceKind::kV4l2 && cameras.fps < 1) {
+    cameras_section.fail("fps", "found a rate below 1, allowed for cameras are 1 to 240");
+  }
+}
+
+}  // namespace stereod

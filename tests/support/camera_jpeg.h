@@ -1,0 +1,17 @@
+// JPEGs as webcams send them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+
+namespace stereod {
+
+/// A picture as a 4:2:2 colour JPEG. Its luma is about `value`, or a gradient if that is negative.
+std::vector<std::uint8_t> camera_jpeg(Size size, int value);
+
+/// The same file without its Huffman tables, as UVC cameras send it.
+std::vector<std::uint8_t> without_huffman_tables(const std::vector<std::uint8_t>& jpeg);
+
+}  // namespace stereod
