@@ -11,6 +11,7 @@
 #include "calib/board_finder.h"
 #include "calib/commands.h"
 #include "calib/corner_order.h"
+#include "calib/daemon_feed.h"
 #include "calib/errors.h"
 #include "calib/frame_feed.h"
 #include "calib/guidance.h"
@@ -30,6 +31,8 @@ struct Flags {
   fs::path config, keep;
   BoardFlags board;
   SolveOutput output;
+  bool daemon = false;
+  std::string lcm_url, prefix = "STEREO";
   int pairs = 15, port = 8090;
 };
 
@@ -82,41 +85,60 @@ void write_pair(const fs::path& folder, std::size_t number, const PicturePair& p
   write_png(folder / ("right_" + name), pair.right.view());
 }
 
+LiveMoment waiting_moment(const Flags& flags, const std::vector<PicturePair>& taken) {
+  LiveMoment moment;
+  moment.words = flags.daemon
+                     ? "waiting for the daemon's pictures; is lcm.raw_images true in its stereod.yaml?"
+                     : "waiting for pictures of the cameras";
+  moment.taken = static_cast<int>(taken.size());
+  moment.wanted = flags.pairs;
+  return moment;
+}
+
 std::vector<PicturePair> collect(const Flags& flags, const Board& board, FrameFeed& feed, LivePage* page) {
-  constexpr std::chrono::milliseconds kPatience{500};
-  Guide guide(board, feed.frame_size(), flags.pairs);
+  constexpr std::chrono::milliseconds kPatience{2000};
+  std::optional<Guide> guide;  // once it is known how large the pictures are
+  Size size;
   StatusLine line;
   std::vector<PicturePair> taken;
   while (interrupted == 0 && !feed.finished()) {
     std::optional<PicturePair> pair = feed.next(kPatience);
     if (!pair) {
-      LiveMoment waiting{feed.frame_size(),
-                         {},
-                         {},
-                         "waiting for pictures of the cameras",
-                         guide.taken(),
-                         guide.wanted(),
-                         0,
-                         0,
-                         {},
-                         {}};
-      if (!feed.finished()) line.show(waiting);
+      if (!feed.finished()) line.show(waiting_moment(flags, taken));
       continue;
     }
+    if (!guide) size = pair->left.size(), guide.emplace(board, size, flags.pairs);
+    if (pair->left.size() != size) {
+      throw CalibrationError("the pictures changed their size while calibrating; begin again");
+    }
     const BoardPair corners = look(*pair, board);
-    const Guide::Advice advice = guide.observe(corners.left, corners.right);
-    const LiveMoment moment = moment_of(guide, advice, corners.left, corners.right, feed.frame_size());
+    const Guide::Advice advice = guide->observe(corners.left, corners.right);
+    const LiveMoment moment = moment_of(*guide, advice, corners.left, corners.right, size);
     line.show(moment);
     if (page != nullptr) page->show(moment, pair->left.view(), pair->right.view());
-    if (!advice.take) continue;
-    line.taken();
-    write_pair(flags.keep, taken.size(), *pair);
-    taken.push_back(std::move(*pair));
-    taken.back().name = "pair " + std::to_string(taken.size());
+    if (advice.take) {
+      line.taken();
+      write_pair(flags.keep, taken.size(), *pair);
+      taken.push_back(std::move(*pair));
+      taken.back().name = "pair " + std::to_string(taken.size());
+    }
     if (advice.complete) break;
   }
   line.end();
   return taken;
+}
+
+std::unique_ptr<FrameFeed> open_feed(const Flags& flags) {
+  if (flags.daemon == !flags.config.empty()) {
+    throw UsageError(
+        "say where the pictures come from: --config FILE opens the cameras, --daemon takes them from stereod "
+        "while "
+        "it runs");
+  }
+  if (flags.daemon) return std::make_unique<DaemonFeed>(flags.lcm_url, flags.prefix);
+  Config config = read_config(flags.config);
+  config.calibration.clear();  // an old one may not even be for this image size
+  return std::make_unique<RigFeed>(config);
 }
 
 int run(const Flags& flags) {
@@ -131,9 +153,7 @@ int run(const Flags& flags) {
     fs::create_directories(flags.keep, error);
     require_writable(flags.keep / "left_00.png");
   }
-  Config config = read_config(flags.config);
-  config.calibration.clear();  // an old one may not even be for this image size
-  FrameFeed feed(config);
+  const std::unique_ptr<FrameFeed> feed = open_feed(flags);
   std::unique_ptr<LivePage> page;
   if (flags.port > 0) {
     page = std::make_unique<LivePage>(flags.port);
@@ -145,7 +165,7 @@ int run(const Flags& flags) {
       "Pairs are taken by themselves while the board is held still. Ctrl-C ends taking and calibrates.\n",
       stderr);
   std::signal(SIGINT, on_interrupt);
-  const std::vector<PicturePair> pictures = collect(flags, *options.board, feed, page.get());
+  const std::vector<PicturePair> pictures = collect(flags, *options.board, *feed, page.get());
   std::signal(SIGINT, SIG_DFL);
   std::printf("%zu pairs taken\n", pictures.size());
   return solve_and_write(pictures, options, flags.output);
@@ -158,11 +178,14 @@ void add_capture_command(CLI::App& app, int& status) {
       "capture", "calibrate live: guides you while you move the board before the cameras, then solves");
   auto flags = std::make_shared<Flags>();
   flags->board.board = "9x6";
-  command
-      ->add_option("--config", flags->config,
-                   "the daemon's stereod.yaml, which names the cameras; stop the daemon "
-                   "first, it holds them")
-      ->required();
+  command->add_option("--config", flags->config,
+                      "open the cameras that this stereod.yaml names; stop the daemon first, it holds them");
+  command->add_flag(
+      "--daemon", flags->daemon,
+      "take the pictures of the running daemon, which publishes them with lcm.raw_images: true");
+  command->add_option("--lcm-url", flags->lcm_url,
+                      "with --daemon; default: LCM_DEFAULT_URL, or this machine only");
+  command->add_option("--prefix", flags->prefix, "with --daemon: of its channels")->capture_default_str();
   command->add_option("--board", flags->board.board, "inner corners across and down")->capture_default_str();
   command
       ->add_option("--square", flags->board.square,

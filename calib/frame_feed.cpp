@@ -18,14 +18,14 @@ GreyImage copied(const LumaView& luma) {
 
 }  // namespace
 
-FrameFeed::FrameFeed(const Config& config)
+RigFeed::RigFeed(const Config& config)
     : rig_(open_rig(config)),
       waits_(config.cameras.fps == 0),
       pairing_(config.cameras.pairing_tolerance_ns()),
       left_thread_([this] { read(*rig_.left, Side::kLeft); }),
       right_thread_([this] { read(*rig_.right, Side::kRight); }) {}
 
-FrameFeed::~FrameFeed() {
+RigFeed::~RigFeed() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
@@ -35,7 +35,7 @@ FrameFeed::~FrameFeed() {
   rig_.right->stop();
 }
 
-void FrameFeed::read(FrameSource& source, Side side) {
+void RigFeed::read(FrameSource& source, Side side) {
   constexpr std::chrono::milliseconds kPatience{200};
   for (;;) {
     FrameLease lease = source.next(kPatience);
@@ -57,7 +57,7 @@ void FrameFeed::read(FrameSource& source, Side side) {
   changed_.notify_all();
 }
 
-std::optional<PicturePair> FrameFeed::next(std::chrono::milliseconds timeout) {
+std::optional<PicturePair> RigFeed::next(std::chrono::milliseconds timeout) {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, timeout, [&] { return pairing_.has_pair() || running_ == 0; });
   auto pair = pairing_.take();
@@ -67,7 +67,7 @@ std::optional<PicturePair> FrameFeed::next(std::chrono::milliseconds timeout) {
   return PicturePair{"pair " + std::to_string(taken_), std::move(pair->left), std::move(pair->right)};
 }
 
-bool FrameFeed::finished() const {
+bool RigFeed::finished() const {
   const std::lock_guard lock(mutex_);
   return running_ == 0 && !pairing_.has_pair();
 }

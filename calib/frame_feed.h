@@ -14,22 +14,29 @@
 
 namespace stereod {
 
+/// Where a live session's pictures come from.
+class FrameFeed {
+ public:
+  virtual ~FrameFeed() = default;
+  /// The next pair; nothing within the time-out, or ever again if finished().
+  virtual std::optional<PicturePair> next(std::chrono::milliseconds timeout) = 0;
+  /// A recording has come to its end.
+  virtual bool finished() const = 0;
+};
+
 /// The configuration's cameras, opened as the daemon opens them, paired as it pairs. Frames that come while a
 /// pair is being looked at are dropped, newest wins; only sources with `fps: 0`, which wait for their
 /// consumer, lose none.
-class FrameFeed {
+class RigFeed final : public FrameFeed {
  public:
   /// Throws what open_rig() throws.
-  explicit FrameFeed(const Config& config);
-  ~FrameFeed();
-  FrameFeed(const FrameFeed&) = delete;
-  FrameFeed& operator=(const FrameFeed&) = delete;
+  explicit RigFeed(const Config& config);
+  ~RigFeed() override;
+  RigFeed(const RigFeed&) = delete;
+  RigFeed& operator=(const RigFeed&) = delete;
 
-  Size frame_size() const { return rig_.left->frame_size(); }
-  /// The next pair; nothing within the time-out, or ever again if finished().
-  std::optional<PicturePair> next(std::chrono::milliseconds timeout);
-  /// A recording has come to its end.
-  bool finished() const;
+  std::optional<PicturePair> next(std::chrono::milliseconds timeout) override;
+  bool finished() const override;
 
  private:
   void read(FrameSource& source, Side side);

@@ -9,6 +9,7 @@
 #include "calib/commands.h"
 #include "calib/errors.h"
 #include "daemon/config/file_error.h"
+#include "daemon/publish/lcm_handle.h"
 
 namespace {
 
@@ -48,6 +49,8 @@ int main(int argc, char** argv) {
     return say(stereod::kExitBadInput, error.what());
   } catch (const stereod::CalibrationError& error) {
     return say(stereod::kExitBadInput, error.what());
+  } catch (const stereod::BusError& error) {
+    return say(error.permanent() ? stereod::kExitBadInput : stereod::kExitFailure, error.what());
   } catch (const std::exception& error) {
     return say(stereod::kExitFailure, error.what());
   }

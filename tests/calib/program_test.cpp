@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -20,6 +21,7 @@
 #include "daemon/imagefile/read_image.h"
 #include "daemon/imagefile/write_image.h"
 #include "tests/support/board_scene.h"
+#include "tests/support/network.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_directory.h"
 
@@ -168,6 +170,7 @@ TEST_F(Program, BadInputIsOneSentenceAndTouchesNothing) {
       {{"board", "--paper", "a9"}, "--paper: found 'a9'"},
       {{"board", "-o", file("board.doc")}, "written as .pdf or .svg"},
       {{"capture", "--config", file("none.yaml"), "--square", "25mm"}, "there is no such file"},
+      {{"capture", "--square", "25mm", "-o", file("c.yaml")}, "say where the pictures come from"},
       {{}, "subcommand"},
   };
   for (const Case& each : cases) {
@@ -311,8 +314,8 @@ TEST_F(Program, CaptureGuidesTakesAndSolves) {
       run({"capture", "--config", file("config.yaml"), "--board", "9x6", "--square", "25mm", "--port", "0",
            "--pairs", "14", "--keep", file("kept"), "-o", file("c.yaml"), "--report", file("r.html")});
   EXPECT_EQ(result.status, 0) << result.out << result.err;
-  for (const char* words : {"show the whole board to both cameras", "hold still", 
-                            "tilt the board", "left no ", "left yes right yes"}) {
+  for (const char* words : {"show the whole board to both cameras", "hold still", "tilt the board",
+                            "left no ", "left yes right yes"}) {
     EXPECT_THAT(result.err, HasSubstr(words));
   }
   EXPECT_THAT(result.out, HasSubstr("pairs taken\nverdict: good"));
@@ -333,6 +336,33 @@ TEST_F(Program, CaptureWithoutABoardSaysSo) {
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("at least 5 are needed"));
   EXPECT_FALSE(fs::exists(folder_ / "c.yaml"));
+}
+
+// The daemon plays the board, stereo-calibrate takes its raw pictures over LCM.
+TEST_F(Program, CaptureTakesTheRunningDaemonsPictures) {
+  if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
+  fs::create_directory(folder_ / "play");
+  std::size_t number = 0;
+  // At ten frames a second each pose rests for most of a second; the recording begins again until all is
+  // taken.
+  for (std::size_t pose = 0; pose < 16; ++pose) {
+    for (int frame = 0; frame < 8; ++frame, ++number) {
+      fs::create_symlink(left(pose), folder_ / ("play/left_" + std::to_string(number) + ".png"));
+      fs::create_symlink(right(pose), folder_ / ("play/right_" + std::to_string(number) + ".png"));
+    }
+  }
+  write_text_file(folder_ / "config.yaml",
+                  "cameras:\n  source: replay\n  fps: 10\n  replay:\n    folder: play\n"
+                  "lcm:\n  prefix: BOARDS\n  raw_images: true\n  raw_images_per_second: 10\n");
+  fs::create_directory(folder_ / "daemon");
+  ChildProgram daemon(fs::path(STEREOD_BIN_DIR) / "stereod", {"--config", file("config.yaml")},
+                      folder_ / "daemon");
+  const ProgramRun result = run({"capture", "--daemon", "--prefix", "BOARDS", "--square", "25mm", "--port",
+                                 "0", "--pairs", "10", "-o", file("c.yaml")});
+  daemon.send(SIGTERM);
+  EXPECT_EQ(daemon.wait().status, 0);
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  EXPECT_NEAR(read_calibration(file("c.yaml")).left.camera.fx / known_cameras(kImage).left.fx, 1, 0.01);
 }
 
 }  // namespace
