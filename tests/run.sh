@@ -60,7 +60,7 @@ check_format() {
     echo "no clang-format 14 here: not checked"
     return 0
   fi
-  find core daemon tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
+  find core daemon calib tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
     xargs -0 "$tool" --dry-run -Werror
 }
 
@@ -89,7 +89,6 @@ if [[ ${1:-} == --all ]]; then
   suite thread-sanitizer tsan_preset
   suite emulated-cpus emulated_cpus
   suite demo bash daemon/demo.sh
-  suite virtual-machine bash tests/vm/run.sh
 fi
 
 echo
