@@ -86,7 +86,7 @@ TEST(Solve, FindsKnownRationalCameras) {
   for (CameraModel* camera : {&truth.left, &truth.right}) {
     set_distortion(*camera, std::vector<double>{0.6, 0.05, 0.0004, -0.0003, 0, 0.9, 0.15, 0});
   }
-  const SolveResult result = solve(rendered(truth, kBoard, 20), options_for(kBoard, LensChoice::kRational));
+  const SolveResult result = solve(rendered(truth, kBoard, 36), options_for(kBoard, LensChoice::kRational));
   expect_found(result.calibration, truth);
   EXPECT_LT(result.held_back.row_error_px, 0.1);
   EXPECT_EQ(assess(result).verdict.grade, Grade::kGood) << summary_text(result, assess(result));
