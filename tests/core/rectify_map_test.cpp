@@ -211,8 +211,8 @@ TEST(RectifyMap, ImpossibleLayoutsAreRefusedInWords) {
             "rows -640 bytes apart do not hold 640 pixels 1 bytes apart");
   EXPECT_EQ(complaint_about({{640, 480}, 640, 0}),
             "pixels of a row 0 bytes apart are not possible in an image 640 pixels wide");
-  EXPECT_EQ(complaint_about({{640, 480}, std::ptrdiff_t{1} << 40, 1}),
-            "an image of 640×480 pixels with rows 1099511627776 bytes apart is too large: offsets into it "
+  EXPECT_EQ(complaint_about({{640, 480}, std::ptrdiff_t{1} << 30, 1}),
+            "an image of 640×480 pixels with rows 1073741824 bytes apart is too large: offsets into it "
             "must fit 31 "
             "bits");
   EXPECT_THROW(RectifyMap::identity({{-1, 4}, 8, 1}), std::invalid_argument);

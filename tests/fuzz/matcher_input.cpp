@@ -54,6 +54,19 @@ MatcherOptions options_of(Bytes& bytes) {
   return o;
 }
 
+/// No mask as often as not; else single pixels, or all beyond a column, have no source.
+std::optional<ValidityMask> mask_of(Bytes& bytes, Size size) {
+  const int kind = bytes.byte() % 4;
+  const int number = bytes.byte();
+  if (kind < 2) return std::nullopt;
+  Random random(static_cast<std::uint64_t>(number));
+  return ValidityMask(size, [&](int x, int) {
+    return kind == 2 ? !random.one_in(1 + number % 16) : x < number % kMostColumns;
+  });
+}
+
+const ValidityMask* pointer_to(const std::optional<ValidityMask>& mask) { return mask ? &*mask : nullptr; }
+
 /// How the bytes become pixels: alone, too many bytes would be needed before anything looks like a surface.
 StereoPair pair_of(Bytes& bytes, Size size) {
   const int kind = bytes.byte() % 4;
@@ -86,6 +99,7 @@ StereoPair pair_of(Bytes& bytes, Size size) {
 DisparityImage match_frame(const MatcherInput& input, const MatcherOptions& options, int workers) {
   DisparityImage found(input.pair.left.size());
   FrameMatcher matcher(options, found.size(), pool_of(workers));
+  matcher.use_masks(pointer_to(input.left_mask), pointer_to(input.right_mask));
   matcher.match(input.pair.left.view(), input.pair.right.view(), found.view());
   return found;
 }
@@ -96,6 +110,7 @@ DisparityImage match_bands(const MatcherInput& input, const MatcherOptions& opti
   const StereoPair& pair = input.pair;
   DisparityImage found(pair.left.size());
   const std::unique_ptr<BandMatcher> matcher = make_band_matcher(options, found.size());
+  matcher->use_masks(pointer_to(input.left_mask), pointer_to(input.right_mask));
   std::vector<int> ends = input.cuts;
   ends.push_back(found.height());
   for (std::size_t band = ends.size(); band-- > 0;) {
@@ -134,7 +149,8 @@ std::string complaint(const MatcherInput& input, const MatcherOptions& options, 
                       const testing::AssertionResult& result) {
   std::ostringstream text;
   text << input.pair.left.width() << "x" << input.pair.left.height() << ", " << describe(options)
-       << " cache=" << name_of(options.cache) << ", " << way << ": " << result.message();
+       << " cache=" << name_of(options.cache) << ", " << way << (input.left_mask ? ", left mask" : "")
+       << (input.right_mask ? ", right mask" : "") << ": " << result.message();
   for (const int cut : input.cuts) text << " cut=" << cut;
   return text.str();
 }
@@ -155,6 +171,8 @@ std::optional<MatcherInput> matcher_input(std::span<const std::uint8_t> data) {
     row += 1 + bytes.byte() % kMostRows;
     if (row < size.height) input.cuts.push_back(row);
   }
+  input.left_mask = mask_of(bytes, size);
+  input.right_mask = mask_of(bytes, size);
   input.pair = pair_of(bytes, size);
   return input;
 }

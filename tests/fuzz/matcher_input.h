@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/match/matcher_options.h"
+#include "core/validity_mask.h"
 #include "tests/support/random_images.h"
 
 namespace stereod {
@@ -16,10 +17,11 @@ struct MatcherInput {
   StereoPair pair;
   MatcherOptions options;  ///< problem_with() has none; implementation and isa are the default ones
   std::vector<int> cuts;   ///< rows, growing, inside the image, where bands begin and end
+  std::optional<ValidityMask> left_mask, right_mask;
 };
 
-/// Any bytes make an input: sizes from 1×1 to 96×40, every option, pixels, band cuts. What the bytes do not
-/// say is zero. Nothing if the reference would take too long on it.
+/// Any bytes make an input: sizes from 1×1 to 96×40, every option, pixels, masks, band cuts. What the bytes
+/// do not say is zero. Nothing if the reference would take too long on it.
 std::optional<MatcherInput> matcher_input(std::span<const std::uint8_t> bytes);
 
 /// Matches the input with every implementation, instruction set and use of the caches, whole by 1 to 3

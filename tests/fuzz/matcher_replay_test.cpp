@@ -40,6 +40,7 @@ TEST(MatcherFuzzReplay, BytesReachEveryOption) {
   int medians = 0;
   int speckles = 0;
   int wide = 0;
+  int masks = 0;
   int surfaces = 0;
   constexpr int kInputs = 300;
   for (std::uint64_t seed = 1; seed <= kInputs; ++seed) {
@@ -49,9 +50,10 @@ TEST(MatcherFuzzReplay, BytesReachEveryOption) {
     medians += input->options.median > 0;
     speckles += input->options.speckle_size > 0;
     wide += input->options.window >= 17;
+    masks += input->left_mask.has_value();
     surfaces += input->pair.left.width() >= input->options.window && input->options.min_disparity == 0;
   }
-  for (const int count : {prefilters, medians, speckles, wide}) EXPECT_GT(count, kInputs / 8);
+  for (const int count : {prefilters, medians, speckles, wide, masks}) EXPECT_GT(count, kInputs / 8);
   EXPECT_GT(surfaces, 3);
 }
 

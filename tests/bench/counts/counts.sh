@@ -78,8 +78,8 @@ blocks_of_a_frame() {
   local repetitions
   for repetitions in 1 3; do
     # shellcheck disable=SC2086  # the emulator's own options are words
-    $emulator -plugin "$work/count_blocks.so" -d plugin -D "$work/run$repetitions" "$@" "$repetitions" ||
-      die "$emulator $*"
+    $emulator -plugin "$work/count_blocks.so" -d plugin -D "$work/run$repetitions" "$@" "$repetitions" \
+      2>"$work/emulator" || { cat "$work/emulator" >&2; die "$emulator $*"; }
   done
   awk '$1 != "block" {next}
        NR == FNR {once[$2, $3] = $4; next}
@@ -99,13 +99,7 @@ cycles_of() {
   # Joins blocks, takes the hottest, and writes each one's assembly to a file. Targets of jumps become '.', because
   # where they lead does not matter and their addresses mean nothing outside the program.
   awk -v dir="$work/regions" -v percent="$covered_percent" '
-    function hex(text,   value, i) {
-      value = 0
-      text = tolower(text)
-      sub(/^0x/, "", text)
-      for (i = 1; i <= length(text); ++i) value = value * 16 + index("0123456789abcdef", substr(text, i, 1)) - 1
-      return value
-    }
+    BEGIN {lines = 0; n = 0; regions = 0}
     FNR == 1 {++file}
     file == 1 {
       if ($1 !~ /^[0-9a-f]+:$/) next
@@ -115,13 +109,13 @@ cycles_of() {
       sub(/^[ \t]*[0-9a-f]+:[ \t]*/, "", text)
       sub(/[ \t]*(#|\/\/) .*$/, "", text)
       gsub(/(0x)?[0-9a-f]+ <[^>]*>/, ".", text)
-      at[lines] = hex(address)
+      at[lines] = address
       line_of[at[lines]] = lines
       code[lines++] = text
       next
     }
     {
-      first[n] = hex($2); count[n] = $3; times[n] = $4
+      first[n] = tolower(substr($2, 3)); count[n] = $3; times[n] = $4
       order[first[n]] = n
       total += $3 * $4
       ++n
