@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <sstream>
 
 namespace stereod {
@@ -18,6 +19,8 @@ void each_number(const CameraCalibration& c, Visit&& visit) {
   visit("fx", m.fx), visit("fy", m.fy), visit("cx", m.cx), visit("cy", m.cy);
   visit("k1", m.k1), visit("k2", m.k2), visit("p1", m.p1), visit("p2", m.p2);
   visit("k3", m.k3), visit("k4", m.k4), visit("k5", m.k5), visit("k6", m.k6);
+  visit("s1", m.s1), visit("s2", m.s2), visit("s3", m.s3), visit("s4", m.s4);
+  visit("tau_x", m.tau_x), visit("tau_y", m.tau_y);
   for (const double element : c.rotation.m) visit("rotation", element);
   const RectifiedProjection& p = c.projection;
   visit("projection fx", p.fx), visit("projection fy", p.fy);
@@ -56,6 +59,11 @@ Problem problem_with_camera(const std::string& name, const CameraCalibration& c,
     return "the " + name + " camera's images are " + text(c.camera.image) + ", the calibration's are " +
            text(image);
   }
+  constexpr double kRightAngle = std::numbers::pi / 2;
+  if (std::abs(c.camera.tau_x) >= kRightAngle || std::abs(c.camera.tau_y) >= kRightAngle) {
+    return "the " + name + " camera's sensor is tilted by " + text(c.camera.tau_x) + " and " +
+           text(c.camera.tau_y) + " radians; both must be below a right angle";
+  }
   if (!(c.camera.fx > 0 && c.camera.fy > 0)) {
     return "the " + name + " camera's focal lengths are " + text(c.camera.fx) + " and " + text(c.camera.fy) +
            " pixels; both must be greater than 0";
@@ -85,6 +93,23 @@ Problem problem_with_rows(const RectifiedProjection& left, const RectifiedProjec
 
 }  // namespace
 
+std::optional<Point2> source_point(const CameraCalibration& c, Point2 rectified) {
+  const RectifiedProjection& p = c.projection;
+  const Vector3 ray =
+      transposed(c.rotation) * Vector3{(rectified.x - p.cx) / p.fx, (rectified.y - p.cy) / p.fy, 1};
+  if (!(ray.z > 0)) return std::nullopt;
+  return c.camera.to_pixel(c.camera.distort({ray.x / ray.z, ray.y / ray.z}));
+}
+
+std::optional<Point2> rectified_point(const CameraCalibration& c, Point2 source) {
+  const std::optional<Point2> straight = c.camera.undistort(c.camera.from_pixel(source));
+  if (!straight) return std::nullopt;
+  const Vector3 ray = c.rotation * Vector3{straight->x, straight->y, 1};
+  if (!(ray.z > 0)) return std::nullopt;
+  return Point2{c.projection.fx * ray.x / ray.z + c.projection.cx,
+                c.projection.fy * ray.y / ray.z + c.projection.cy};
+}
+
 std::optional<std::string> problem_with(const Calibration& calibration) {
   const Size image = calibration.image;
   if (image.width < 1 || image.height < 1) {
@@ -110,8 +135,10 @@ std::string calibration_id(const Calibration& calibration) {
     for (int byte = 0; byte < 8; ++byte, bits >>= 8) hash = (hash ^ (bits & 0xff)) * 0x100000001b3;
   };
   add("", calibration.image.width), add("", calibration.image.height), add("", calibration.baseline_m);
-  each_number(calibration.left, add);
-  each_number(calibration.right, add);
+  for (const CameraCalibration* camera : {&calibration.left, &calibration.right}) {
+    add("", camera->camera.lens == LensModel::kFisheye ? 1 : 0);
+    each_number(*camera, add);
+  }
 
   std::string digits(16, '0');
   for (std::size_t i = 16; i-- > 0; hash >>= 4) digits[i] = "0123456789abcdef"[hash & 0xf];

@@ -24,6 +24,14 @@ struct CameraCalibration {
   friend bool operator==(const CameraCalibration&, const CameraCalibration&) = default;
 };
 
+/// Where a point of the rectified image lies in the camera's own one; both in pixels, perhaps outside.
+/// Nothing if it is not in front of the camera.
+std::optional<Point2> source_point(const CameraCalibration& camera, Point2 rectified);
+
+/// The inverse. Nothing where CameraModel::undistort() finds nothing, or not in front of the rectified
+/// camera.
+std::optional<Point2> rectified_point(const CameraCalibration& camera, Point2 source);
+
 /// How good a calibration is.
 struct CalibrationQuality {
   int pairs_used = 0;
@@ -49,7 +57,7 @@ struct Calibration {
 std::optional<std::string> problem_with(const Calibration& calibration);
 
 /// 16 hexadecimal digits that change when any number of the geometry does (FNV-1a, 64 bit, over the numbers
-/// of both cameras, the size and the baseline; not the quality).
+/// and lens models of both cameras, the size and the baseline; not the quality).
 std::string calibration_id(const Calibration& calibration);
 
 }  // namespace stereod

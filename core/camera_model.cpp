@@ -1,6 +1,10 @@
 #include "core/camera_model.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
 
 namespace stereod {
 
@@ -40,22 +44,52 @@ Matrix3 rotation_about(const Vector3& v) {
            t * x * z - s * y, t * y * z + s * x, t * z * z + c}};
 }
 
-Point2 CameraModel::distort(Point2 undistorted) const {
-  const double x = undistorted.x, y = undistorted.y;
-  const double r2 = x * x + y * y;
-  const double radial = (1 + ((k3 * r2 + k2) * r2 + k1) * r2) / (1 + ((k6 * r2 + k5) * r2 + k4) * r2);
-  return {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
-          y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
-}
-
 namespace {
 
-// The derivative of CameraModel::distort() at a point, row by row; symmetric, so three numbers.
+// What a tilted sensor does to a picture, as a plane's homography: the two rotations, then the projection
+// along the optical axis onto the tilted plane.
+Matrix3 tilt(double tau_x, double tau_y) {
+  const double cos_x = std::cos(tau_x), sin_x = std::sin(tau_x);
+  const double cos_y = std::cos(tau_y), sin_y = std::sin(tau_y);
+  const Matrix3 about_x{{1, 0, 0, 0, cos_x, sin_x, 0, -sin_x, cos_x}};
+  const Matrix3 about_y{{cos_y, 0, -sin_y, 0, 1, 0, sin_y, 0, cos_y}};
+  const Matrix3 r = about_y * about_x;
+  const Matrix3 project{{r(2, 2), 0, -r(0, 2), 0, r(2, 2), -r(1, 2), 0, 0, 1}};
+  return project * r;
+}
+
+Matrix3 inverse(const Matrix3& a) {
+  const double scale = 1 / determinant(a);
+  const auto minor = [&](int r0, int c0, int r1, int c1) {
+    return scale * (a(r0, c0) * a(r1, c1) - a(r0, c1) * a(r1, c0));
+  };
+  return {{minor(1, 1, 2, 2), minor(0, 2, 2, 1), minor(0, 1, 1, 2),  //
+           minor(1, 2, 2, 0), minor(0, 0, 2, 2), minor(0, 2, 1, 0),  //
+           minor(1, 0, 2, 1), minor(0, 1, 2, 0), minor(0, 0, 1, 1)}};
+}
+
+Point2 through(const Matrix3& homography, Point2 p) {
+  const Vector3 v = homography * Vector3{p.x, p.y, 1};
+  return {v.x / v.z, v.y / v.z};
+}
+
+bool is_tilted(const CameraModel& c) { return c.tau_x != 0 || c.tau_y != 0; }
+
+Point2 distort_pinhole(const CameraModel& c, Point2 undistorted) {
+  const double x = undistorted.x, y = undistorted.y;
+  const double r2 = x * x + y * y;
+  const double radial =
+      (1 + ((c.k3 * r2 + c.k2) * r2 + c.k1) * r2) / (1 + ((c.k6 * r2 + c.k5) * r2 + c.k4) * r2);
+  return {x * radial + 2 * c.p1 * x * y + c.p2 * (r2 + 2 * x * x) + (c.s1 + c.s2 * r2) * r2,
+          y * radial + c.p1 * (r2 + 2 * y * y) + 2 * c.p2 * x * y + (c.s3 + c.s4 * r2) * r2};
+}
+
+// The derivative of distort_pinhole() at a point, row by row.
 struct Jacobian {
-  double xx, xy, yy;
+  double xx, xy, yx, yy;
 };
 
-Jacobian distort_derivative(const CameraModel& c, Point2 at) {
+Jacobian pinhole_derivative(const CameraModel& c, Point2 at) {
   const double x = at.x, y = at.y;
   const double r2 = x * x + y * y;
   const double above = 1 + ((c.k3 * r2 + c.k2) * r2 + c.k1) * r2;
@@ -64,17 +98,17 @@ Jacobian distort_derivative(const CameraModel& c, Point2 at) {
   const double below_slope = (3 * c.k6 * r2 + 2 * c.k5) * r2 + c.k4;
   const double radial = above / below;
   const double slope = 2 * (above_slope * below - above * below_slope) / (below * below);
-  return {radial + x * x * slope + 2 * c.p1 * y + 6 * c.p2 * x, x * y * slope + 2 * c.p1 * x + 2 * c.p2 * y,
-          radial + y * y * slope + 6 * c.p1 * y + 2 * c.p2 * x};
+  const double mixed = x * y * slope + 2 * c.p1 * x + 2 * c.p2 * y;
+  const double prism_x = 2 * (c.s1 + 2 * c.s2 * r2), prism_y = 2 * (c.s3 + 2 * c.s4 * r2);
+  return {radial + x * x * slope + 2 * c.p1 * y + 6 * c.p2 * x + x * prism_x, mixed + y * prism_x,
+          mixed + x * prism_y, radial + y * y * slope + 6 * c.p1 * y + 2 * c.p2 * x + y * prism_y};
 }
 
-}  // namespace
-
-std::optional<Point2> CameraModel::undistort(Point2 distorted) const {
+std::optional<Point2> undistort_pinhole(const CameraModel& c, Point2 distorted) {
   constexpr int kMostSteps = 50;
   constexpr double kTolerance = 1e-12;
   const auto error_at = [&](Point2 p) {
-    const Point2 q = distort(p);
+    const Point2 q = distort_pinhole(c, p);
     return Point2{q.x - distorted.x, q.y - distorted.y};
   };
   const auto size = [](Point2 p) { return std::hypot(p.x, p.y); };
@@ -83,10 +117,10 @@ std::optional<Point2> CameraModel::undistort(Point2 distorted) const {
   Point2 error = error_at(p);
   for (int step = 0; step < kMostSteps; ++step) {
     if (size(error) < kTolerance) return p;
-    const Jacobian j = distort_derivative(*this, p);
-    const double det = j.xx * j.yy - j.xy * j.xy;
+    const Jacobian j = pinhole_derivative(c, p);
+    const double det = j.xx * j.yy - j.xy * j.yx;
     if (!(det > 0)) return std::nullopt;  // the image folds over here: no lens does
-    const Point2 move{(j.yy * error.x - j.xy * error.y) / det, (j.xx * error.y - j.xy * error.x) / det};
+    const Point2 move{(j.yy * error.x - j.xy * error.y) / det, (j.xx * error.y - j.yx * error.x) / det};
     // A whole Newton step may leap over the fold; half of it, and half again, does not.
     double part = 1;
     Point2 next, next_error;
@@ -102,6 +136,104 @@ std::optional<Point2> CameraModel::undistort(Point2 distorted) const {
   // Rounding may end the progress a little above the tolerance far outside.
   if (size(error) < kTolerance * (1 + size(distorted))) return p;
   return std::nullopt;
+}
+
+double fisheye_angle(const CameraModel& c, double theta) {
+  const double t2 = theta * theta;
+  return theta * (1 + t2 * (c.k1 + t2 * (c.k2 + t2 * (c.k3 + t2 * c.k4))));
+}
+
+double fisheye_slope(const CameraModel& c, double theta) {
+  const double t2 = theta * theta;
+  return 1 + t2 * (3 * c.k1 + t2 * (5 * c.k2 + t2 * (7 * c.k3 + t2 * 9 * c.k4)));
+}
+
+Point2 distort_fisheye(const CameraModel& c, Point2 undistorted) {
+  const double r = std::hypot(undistorted.x, undistorted.y);
+  if (r == 0) return undistorted;
+  const double scale = fisheye_angle(c, std::atan(r)) / r;
+  return {undistorted.x * scale, undistorted.y * scale};
+}
+
+std::optional<Point2> undistort_fisheye(const CameraModel& c, Point2 distorted) {
+  constexpr int kMostSteps = 50;
+  constexpr double kTolerance = 1e-12;
+  constexpr double kRightAngle = std::numbers::pi / 2;
+  const double bent = std::hypot(distorted.x, distorted.y);
+  if (!std::isfinite(bent)) return std::nullopt;
+  if (bent == 0) return distorted;
+  double theta = std::min(bent, kRightAngle);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const double error = fisheye_angle(c, theta) - bent;
+    if (std::abs(error) < kTolerance) {
+      if (!(theta < kRightAngle)) return std::nullopt;
+      const double scale = std::tan(theta) / bent;
+      return Point2{distorted.x * scale, distorted.y * scale};
+    }
+    const double slope = fisheye_slope(c, theta);
+    if (!(slope > 0)) return std::nullopt;  // the image folds over here
+    theta -= error / slope;
+    if (!(theta > 0)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Point2 CameraModel::distort(Point2 undistorted) const {
+  if (lens == LensModel::kFisheye) return distort_fisheye(*this, undistorted);
+  const Point2 bent = distort_pinhole(*this, undistorted);
+  return is_tilted(*this) ? through(tilt(tau_x, tau_y), bent) : bent;
+}
+
+std::optional<Point2> CameraModel::undistort(Point2 distorted) const {
+  if (lens == LensModel::kFisheye) return undistort_fisheye(*this, distorted);
+  if (is_tilted(*this)) distorted = through(inverse(tilt(tau_x, tau_y)), distorted);
+  return undistort_pinhole(*this, distorted);
+}
+
+namespace {
+
+// Pointers to the coefficients in OpenCV's order.
+template <typename Camera>
+auto coefficients_of(Camera& c) {
+  using Pointer = decltype(&c.k1);
+  if (c.lens == LensModel::kFisheye) return std::vector<Pointer>{&c.k1, &c.k2, &c.k3, &c.k4};
+  return std::vector<Pointer>{&c.k1, &c.k2, &c.p1, &c.p2, &c.k3, &c.k4,    &c.k5,
+                              &c.k6, &c.s1, &c.s2, &c.s3, &c.s4, &c.tau_x, &c.tau_y};
+}
+
+}  // namespace
+
+std::vector<std::size_t> distortion_counts(LensModel lens) {
+  if (lens == LensModel::kFisheye) return {4};
+  return {4, 5, 8, 12, 14};
+}
+
+void set_distortion(CameraModel& camera, std::span<const double> coefficients) {
+  const std::vector<std::size_t> counts = distortion_counts(camera.lens);
+  if (std::find(counts.begin(), counts.end(), coefficients.size()) == counts.end()) {
+    throw std::invalid_argument(std::to_string(coefficients.size()) +
+                                " distortion coefficients belong to no lens model; 4, 5, 8, 12 or 14 do for "
+                                "a pinhole, 4 for a fisheye");
+  }
+  CameraModel plain{camera.image, camera.fx, camera.fy, camera.cx, camera.cy};
+  plain.lens = camera.lens;
+  camera = plain;
+  const auto places = coefficients_of(camera);
+  for (std::size_t i = 0; i < coefficients.size(); ++i) *places[i] = coefficients[i];
+}
+
+std::vector<double> distortion_of(const CameraModel& camera) {
+  std::vector<double> all;
+  for (const double* coefficient : coefficients_of(camera)) all.push_back(*coefficient);
+  if (camera.lens == LensModel::kFisheye) return all;
+  std::size_t used = all.size();
+  while (used > 0 && all[used - 1] == 0) --used;
+  for (const std::size_t count : {5, 8, 12, 14}) {
+    if (used <= count) return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)};
+  }
+  return all;
 }
 
 }  // namespace stereod

@@ -60,7 +60,7 @@ check_format() {
     echo "no clang-format 14 here: not checked"
     return 0
   fi
-  find core daemon tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
+  find core daemon calib tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
     xargs -0 "$tool" --dry-run -Werror
 }
 

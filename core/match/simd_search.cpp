@@ -65,13 +65,13 @@ Shape shape_for(const MatcherOptions& options, int width, const Kernel& kernel) 
   return shape;
 }
 
-// Strips overlap by a window less one column. In a cache of 24 KiB, 15 KiB of column sums leave room for the
+// Strips overlap by a window less one column. In a cache of 24 KiB, 12 KiB of column sums leave room for the
 // rows compared and a block's results; strips narrower than 64 columns would mostly overlap.
 std::vector<Strip> strips_for(const Shape& shape) {
   const int overlap = shape.window - 1;
   int answers = shape.columns() - overlap;
   if (shape.recompute) {
-    constexpr int kSumBytes = 15 * 1024;
+    constexpr int kSumBytes = 12 * 1024;
     answers = std::max(64, kSumBytes / (2 * shape.padded_disparities()) - overlap);
   }
   std::vector<Strip> strips;

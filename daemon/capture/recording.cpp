@@ -26,11 +26,6 @@ using FrameNumber = std::pair<std::size_t, std::string>;
 
 using NumberedFiles = std::map<FrameNumber, fs::path>;
 
-struct PairFiles {
-  fs::path left;
-  fs::path right;
-};
-
 std::string lower_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
@@ -108,6 +103,8 @@ std::vector<PairFiles> join(const NumberedFiles& left, const NumberedFiles& righ
   return pairs;
 }
 
+}  // namespace
+
 std::vector<PairFiles> find_pairs(const fs::path& directory) {
   const std::vector<fs::path> entries = entries_of(directory);
   const auto folder_of = [&](char side) -> std::optional<fs::path> {
@@ -143,6 +140,8 @@ std::vector<PairFiles> find_pairs(const fs::path& directory) {
   }
   return pairs;
 }
+
+namespace {
 
 std::string words_for(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
 

@@ -13,18 +13,26 @@ struct RecordedPair {
   GreyImage right;
 };
 
+struct PairFiles {
+  std::filesystem::path left;
+  std::filesystem::path right;
+};
+
+/// The picture files of a directory's pairs, in the order of their numbers. Either it has the folders `left`
+/// and `right` (or `l` and `r`), in which a picture's number is the digits that its name ends with, or it has
+/// files like left_00.png and right_00.png: `left` or `l`, perhaps `_` or `-`, the number (without one: the
+/// only pair). Capital letters are the same as small ones. Pictures are .png, .jpg, .jpeg, .pgm and .ppm;
+/// other files do not matter. Throws FileError: no pair, a picture without its partner, two with one number.
+std::vector<PairFiles> find_pairs(const std::filesystem::path& directory);
+
 /// At least one pair, all images of one size, at most 1 GiB in total.
 class Recording {
  public:
   /// One pair. Throws FileError: a file cannot be read (read_grey()) or the two differ in size.
   Recording(const std::filesystem::path& left, const std::filesystem::path& right);
 
-  /// All pairs of a directory, in the order of their numbers. Either it has the folders `left` and `right`
-  /// (or `l` and `r`), in which a picture's number is the digits that its name ends with, or it has files
-  /// like left_00.png and right_00.png: `left` or `l`, perhaps `_` or `-`, the number (without one: the only
-  /// pair). Capital letters are the same as small ones. Pictures are .png, .jpg, .jpeg, .pgm and .ppm; other
-  /// files do not matter. Throws FileError: no pair, a picture without its partner, two with one number,
-  /// different sizes, more than 1 GiB, a file that cannot be read.
+  /// All pairs that find_pairs() finds. Throws FileError: what that throws, different sizes, more than 1 GiB,
+  /// a file that cannot be read.
   explicit Recording(const std::filesystem::path& directory);
 
   Size frame_size() const { return pairs_.front().left.size(); }

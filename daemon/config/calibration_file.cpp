@@ -45,15 +45,17 @@ CameraCalibration read_camera(YamlSection section, Size image) {
   CameraModel& camera = result.camera;
   camera.image = image;
   const std::string model = section.required_text("model");
-  if (model != "pinhole") section.fail("model", "found '" + model + "', allowed is 'pinhole'");
+  if (model != "pinhole" && model != "fisheye") {
+    section.fail("model", "found '" + model + "', allowed are 'pinhole' and 'fisheye'");
+  }
+  camera.lens = model == "fisheye" ? LensModel::kFisheye : LensModel::kPinhole;
   camera.fx = focal_length(section, "fx");
   camera.fy = focal_length(section, "fy");
   camera.cx = principal_point(section, "cx");
   camera.cy = principal_point(section, "cy");
-  const std::vector<double> lens = section.required_numbers("distortion", 8);
-  camera.k1 = lens[0], camera.k2 = lens[1], camera.p1 = lens[2], camera.p2 = lens[3];
-  camera.k3 = lens[4], camera.k4 = lens[5], camera.k5 = lens[6], camera.k6 = lens[7];
-  const std::vector<double> rotation = section.required_numbers("rotation", 9);
+  const std::vector<std::size_t> counts = distortion_counts(camera.lens);
+  set_distortion(camera, section.required_numbers("distortion", counts));
+  const std::vector<double> rotation = section.required_numbers("rotation", {9});
   std::copy(rotation.begin(), rotation.end(), result.rotation.m.begin());
   result.projection = read_projection(section.required_section("projection"));
   section.finish();
@@ -79,16 +81,23 @@ std::string digits(double number) {
 void write_camera(std::ostream& out, const char* name, const CameraCalibration& c) {
   const CameraModel& m = c.camera;
   out << "\n" << name << ":\n";
-  out << "  model: pinhole\n";
+  const bool fisheye = m.lens == LensModel::kFisheye;
+  out << "  model: " << (fisheye ? "fisheye" : "pinhole") << "\n";
   out << "  fx: " << digits(m.fx) << "  # focal lengths, pixels\n";
   out << "  fy: " << digits(m.fy) << "\n";
   out << "  cx: " << digits(m.cx)
       << "  # principal point, pixels; (0, 0) is the centre of the top left pixel\n";
   out << "  cy: " << digits(m.cy) << "\n";
-  out << "  # k1, k2, p1, p2, k3, k4, k5, k6, as in OpenCV\n";
-  out << "  distortion: [" << digits(m.k1);
-  for (const double coefficient : {m.k2, m.p1, m.p2, m.k3, m.k4, m.k5, m.k6})
-    out << ", " << digits(coefficient);
+  out << (fisheye
+              ? "  # k1, k2, k3, k4 of the equidistant model, as in OpenCV\n"
+              : "  # k1, k2, p1, p2, k3, k4, k5, k6, s1, s2, s3, s4, tau_x, tau_y, as in OpenCV; what is not "
+                "here is 0\n");
+  out << "  distortion: [";
+  const char* separator = "";
+  for (const double coefficient : distortion_of(m)) {
+    out << separator << digits(coefficient);
+    separator = ", ";
+  }
   out << "]\n";
   out << "  # from directions of the camera to directions of the rectified camera, row by row\n";
   out << "  rotation: [";

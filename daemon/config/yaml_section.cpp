@@ -179,12 +179,18 @@ std::string YamlSection::required_text(const std::string& key) {
   return text(key, "");
 }
 
-std::vector<double> YamlSection::required_numbers(const std::string& key, std::size_t count) {
+std::vector<double> YamlSection::required_numbers(const std::string& key,
+                                                  const std::vector<std::size_t>& counts) {
   require(key);
   const YAML::Node node = find(key);
-  if (!node.IsSequence() || node.size() != count) {
+  if (!node.IsSequence() || std::find(counts.begin(), counts.end(), node.size()) == counts.end()) {
+    std::string allowed;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (i > 0) allowed += i + 1 < counts.size() ? ", " : " or ";
+      allowed += std::to_string(counts[i]);
+    }
     fail(key, "found " + (node.IsSequence() ? std::to_string(node.size()) + " values" : kind_of(node)) +
-                  ", allowed is a list of " + std::to_string(count) + " numbers");
+                  ", allowed is a list of " + allowed + " numbers");
   }
   std::vector<double> values;
   for (const YAML::Node& item : node) {

@@ -50,7 +50,8 @@ class YamlSection {
   double required_number(const std::string& key, double least, double most);
   int required_integer(const std::string& key, int least, int most);
   std::string required_text(const std::string& key);
-  std::vector<double> required_numbers(const std::string& key, std::size_t count);
+  /// A list of as many numbers as one of `counts` says.
+  std::vector<double> required_numbers(const std::string& key, const std::vector<std::size_t>& counts);
 
   /// The whole numbers of the map below `key`, by their names; empty if it is not there.
   std::map<std::string, int> integers(const std::string& key);

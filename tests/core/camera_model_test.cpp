@@ -21,6 +21,20 @@ CameraModel rational() {
   return camera;
 }
 
+CameraModel tilted() {
+  CameraModel camera = rational();
+  camera.s1 = 0.01, camera.s2 = -0.004, camera.s3 = -0.006, camera.s4 = 0.003;
+  camera.tau_x = 0.05, camera.tau_y = -0.08;
+  return camera;
+}
+
+CameraModel fisheye() {
+  CameraModel camera{{640, 480}, 250, 251, 325, 236};
+  camera.lens = LensModel::kFisheye;
+  camera.k1 = 0.03, camera.k2 = -0.01, camera.k3 = 0.004, camera.k4 = -0.001;
+  return camera;
+}
+
 TEST(Matrix3, ProductAppliesTheRightFactorFirst) {
   const Matrix3 quarter_about_z = rotation_about({0, 0, std::numbers::pi / 2});
   const Matrix3 quarter_about_x = rotation_about({std::numbers::pi / 2, 0, 0});
@@ -67,11 +81,13 @@ TEST(CameraModel, DistortsAsDefined) {
 }
 
 TEST(CameraModel, UndistortInvertsDistortAllOverTheImage) {
-  for (const CameraModel& camera : {webcam(), rational()}) {
+  for (const CameraModel& camera : {webcam(), rational(), tilted(), fisheye()}) {
     for (int y = 0; y < 480; y += 13) {
       for (int x = 0; x < 640; x += 13) {
         const Point2 seen = camera.from_pixel({static_cast<double>(x), static_cast<double>(y)});
         const auto straight = camera.undistort(seen);
+        // A fisheye's corners look farther to the side than a plane picture can show.
+        if (camera.lens == LensModel::kFisheye && std::hypot(seen.x, seen.y) > 1.5) continue;
         ASSERT_TRUE(straight.has_value()) << x << ' ' << y;
         const Point2 again = camera.distort(*straight);
         ASSERT_NEAR(again.x, seen.x, 2e-12) << x << ' ' << y;
@@ -95,6 +111,45 @@ TEST(CameraModel, UndistortAdmitsThatThereIsNoAnswer) {
   EXPECT_FALSE(camera.undistort({0.71, 0}).has_value());
   EXPECT_FALSE(camera.undistort({3, 2}).has_value());
   EXPECT_FALSE(camera.undistort({std::nan(""), 0}).has_value());
+}
+
+// By hand: θ = π/4, so θ' = π/4 · (1 + k1·(π/4)²) for k1 alone.
+TEST(CameraModel, AFisheyeFollowsTheAngle) {
+  CameraModel camera;
+  camera.lens = LensModel::kFisheye;
+  const double quarter = std::numbers::pi / 4;
+  EXPECT_NEAR(camera.distort({1, 0}).x, quarter, 1e-15);
+  camera.k1 = 0.1;
+  const Point2 p = camera.distort({0.6, 0.8});
+  EXPECT_NEAR(p.x, 0.6 * quarter * (1 + 0.1 * quarter * quarter), 1e-15);
+  EXPECT_NEAR(p.y, 0.8 * quarter * (1 + 0.1 * quarter * quarter), 1e-15);
+  EXPECT_EQ(camera.distort({0, 0}).x, 0);
+}
+
+TEST(CameraModel, AFisheyeHasNoAnswerBesideTheCamera) {
+  CameraModel camera;
+  camera.lens = LensModel::kFisheye;
+  EXPECT_TRUE(camera.undistort({1.57, 0}).has_value());
+  EXPECT_FALSE(camera.undistort({1.58, 0}).has_value());
+  EXPECT_FALSE(camera.undistort({std::nan(""), 0}).has_value());
+}
+
+TEST(CameraModel, DistortionListsKeepTheirOrderAndTheirZeros) {
+  for (const CameraModel& camera : {webcam(), rational(), tilted(), fisheye()}) {
+    CameraModel again{camera.image, camera.fx, camera.fy, camera.cx, camera.cy};
+    again.lens = camera.lens;
+    again.s1 = 9;  // must go
+    set_distortion(again, distortion_of(camera));
+    EXPECT_EQ(again, camera);
+  }
+  EXPECT_EQ(distortion_of(webcam()).size(), 5U);
+  EXPECT_EQ(distortion_of(rational()).size(), 8U);
+  EXPECT_EQ(distortion_of(tilted()).size(), 14U);
+  EXPECT_EQ(distortion_of(fisheye()), (std::vector<double>{0.03, -0.01, 0.004, -0.001}));
+  CameraModel camera;
+  EXPECT_THROW(set_distortion(camera, std::vector<double>(6)), std::invalid_argument);
+  camera.lens = LensModel::kFisheye;
+  EXPECT_THROW(set_distortion(camera, std::vector<double>(5)), std::invalid_argument);
 }
 
 }  // namespace

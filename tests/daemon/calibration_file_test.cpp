@@ -97,6 +97,29 @@ TEST_F(CalibrationFile, ReadsWhatWasWrittenToTheLastBit) {
   }
 }
 
+TEST_F(CalibrationFile, KeepsEveryLensModel) {
+  Calibration calibration = sound();
+  CameraModel& left = calibration.left.camera;
+  for (double* coefficient : {&left.s1, &left.s2, &left.s3, &left.s4, &left.tau_x, &left.tau_y}) {
+    *coefficient = -0.01 / 3;
+    calibration.id = calibration_id(calibration);
+    write_calibration(file_, calibration);
+    ASSERT_EQ(read_calibration(file_), calibration);
+  }
+  CameraModel fisheye{{640, 480}, 300, 301, 320, 240};
+  fisheye.lens = LensModel::kFisheye;
+  fisheye.k1 = 0.1 / 3, fisheye.k2 = -0.01, fisheye.k3 = 1e-5, fisheye.k4 = -1.0 / 7;
+  calibration.left.camera = calibration.right.camera = fisheye;
+  calibration.id = calibration_id(calibration);
+  write_calibration(file_, calibration);
+  EXPECT_EQ(read_calibration(file_), calibration);
+
+  const std::string five = "model: fisheye\n  fx: 300";
+  EXPECT_NE(calibration_text(calibration).find(five), std::string::npos);
+  EXPECT_TRUE(complaint_about(replaced(calibration_text(calibration), "distortion: [", "distortion: [1, "))
+                  .ends_with("left.distortion: found 5 values, allowed is a list of 4 numbers"));
+}
+
 TEST_F(CalibrationFile, AnEditedFileHasAnotherId) {
   const std::string text = calibration_text(sound());
   EXPECT_EQ(complaint_about(replaced(text, "fx: 555 ", "fx: 556 ")), "none");
@@ -120,9 +143,11 @@ TEST_F(CalibrationFile, EachMistakeIsNamedWithItsPlace) {
        "baseline_m: found '60.1cm', allowed are numbers from 0.0001 to 100"},
       {"baseline_m: 0.0601", "baseline_m: -0.06", "baseline_m",
        "baseline_m: found '-0.06', allowed are numbers from 0.0001 to 100"},
-      {"model: pinhole", "model: fisheye", "  model", "left.model: found 'fisheye', allowed is 'pinhole'"},
+      {"model: pinhole", "model: fishy", "  model",
+       "left.model: found 'fishy', allowed are 'pinhole' and 'fisheye'"},
       {"fy: 548", "fy: nan", "  fy", "left.fy: found 'nan', allowed are numbers from 1 to 1e+06"},
-      {"-0.28, ", "", "  distortion", "left.distortion: found 7 values, allowed is a list of 8 numbers"},
+      {"-0.28, ", "", "  distortion",
+       "left.distortion: found 7 values, allowed is a list of 4, 5, 8, 12 or 14 numbers"},
       {"-0.28, ", "much, ", "  distortion", "left.distortion: found 'much', allowed are finite numbers"},
       {"projection:", "projektion:", "", "left.projection: is missing"},
       {"  rms_px: 0.31", "  rms_px: 0.31\n  rms: 1", "  rms: 1",

@@ -52,8 +52,8 @@ class BlockSearch {
                   const Winners& out) {
     Running running[kMaxChunks];
     for (int chunk = 0; chunk < shape.chunks; ++chunk) start(shape, chunk, running[chunk]);
-    for (int first = strip.first; first < strip.end; first += kBlockColumns) {
-      const int end = first + kBlockColumns < strip.end ? first + kBlockColumns : strip.end;
+    for (int first = strip.first, end = first; first < strip.end; first = end) {
+      end = end_of_block(shape, strip, first);
       std::uint32_t best[kBlockColumns];  // cost << 16 | k: the least is the winner, the lowest k on a tie
       for (int chunk = 0; chunk < shape.chunks; ++chunk) {
         const Block block{first, end, first};
@@ -70,6 +70,15 @@ class BlockSearch {
   }
 
  private:
+  // Blocks end where the left border does, so that no more columns than must be are searched as those of the
+  // border are.
+  static int end_of_block(const Shape& shape, const Strip& strip, int first) {
+    const int border_end = shape.disparities + shape.window - 2;
+    int end = first + kBlockColumns;
+    if (first < border_end && border_end < end) end = border_end;
+    return end < strip.end ? end : strip.end;
+  }
+
   struct Running;
   using Sweep = void (*)(const Shape&, const Strip&, const RowChange&, const Scratch&, const Block&,
                          int chunk, Running&, std::uint32_t (*found)[kBlockColumns]);

@@ -7,7 +7,7 @@
 namespace stereod::kernels {
 
 /// Columns searched in one go, so that the sums of all their disparities stay in the first-level cache.
-inline constexpr int kBlockColumns = 32;
+inline constexpr int kBlockColumns = 64;
 /// Disparities whose running sums fit in the registers; more are searched in chunks of at most this many.
 inline constexpr int kMaxChunk = 64;
 inline constexpr int kMaxChunks = 4;

@@ -13,6 +13,15 @@ JpegLumaDecoder::JpegLumaDecoder() : turbojpeg_(tjInitDecompress()) {
 
 JpegLumaDecoder::~JpegLumaDecoder() { tjDestroy(turbojpeg_); }
 
+// libjpeg keeps the Huffman tables it has seen, so a damaged picture could spoil all those after it that
+// bring none of their own.
+void JpegLumaDecoder::start_anew() noexcept {
+  if (void* fresh = tjInitDecompress()) {
+    tjDestroy(turbojpeg_);
+    turbojpeg_ = fresh;
+  }
+}
+
 bool JpegLumaDecoder::decode(std::span<const std::uint8_t> jpeg, ImageView<std::uint8_t> luma,
                              FrameDrop& drop) noexcept {
   if (jpeg.size() < 4 || jpeg[0] != 0xff || jpeg[1] != 0xd8 || jpeg[2] != 0xff) {
@@ -24,6 +33,7 @@ bool JpegLumaDecoder::decode(std::span<const std::uint8_t> jpeg, ImageView<std::
   if (tjDecompressHeader3(turbojpeg_, jpeg.data(), length, &width, &height, &subsampling, &colorspace) != 0 ||
       (colorspace != TJCS_YCbCr && colorspace != TJCS_GRAY)) {
     drop = FrameDrop::kJpegDamaged;
+    start_anew();
     return false;
   }
   if (Size{width, height} != luma.size()) {
@@ -36,6 +46,7 @@ bool JpegLumaDecoder::decode(std::span<const std::uint8_t> jpeg, ImageView<std::
                                    static_cast<int>(luma.stride()), height, TJPF_GRAY, kFlags);
   if (status != 0) {
     drop = FrameDrop::kJpegDamaged;
+    start_anew();
     return false;
   }
   return true;

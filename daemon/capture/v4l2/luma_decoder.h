@@ -26,6 +26,8 @@ class JpegLumaDecoder {
   bool decode(std::span<const std::uint8_t> jpeg, ImageView<std::uint8_t> luma, FrameDrop& drop) noexcept;
 
  private:
+  void start_anew() noexcept;
+
   void* turbojpeg_;
 };
 

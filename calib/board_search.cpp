@@ -1,0 +1,127 @@
+#include "calib/board_search.h"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "calib/corner_order.h"
+#include "calib/errors.h"
+#include "calib/pair_consensus.h"
+#include "calib/progress.h"
+
+namespace stereod {
+
+namespace {
+
+// How many pictures are looked at to find out which board it is.
+constexpr std::size_t kSamples = 6;
+
+// Calls work(i) for i < count on all CPUs.
+template <typename Work>
+void in_parallel(std::size_t count, Work&& work) {
+  std::atomic<std::size_t> next{0};
+  std::vector<std::jthread> threads;
+  const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
+  for (std::size_t t = 0; t < std::min(most, count); ++t) {
+    threads.emplace_back([&] {
+      for (std::size_t i = next++; i < count; i = next++) work(i);
+    });
+  }
+}
+
+// The board that most of the sampled pictures show, if any.
+std::optional<Board> board_in(const std::vector<PicturePair>& pictures) {
+  std::map<std::pair<int, int>, int> votes;
+  std::mutex mutex;
+  const auto places = evenly_spread(std::min(kSamples, pictures.size()), pictures.size());
+  Progress progress("which board is it?", 2 * places.size());
+  in_parallel(2 * places.size(), [&](std::size_t i) {
+    const PicturePair& pair = pictures[places[i / 2]];
+    const auto found = find_any_board((i % 2 == 0 ? pair.left : pair.right).view());
+    const std::lock_guard lock(mutex);
+    if (found) ++votes[{found->columns, found->rows}];
+    progress.step();
+  });
+  if (votes.empty()) return std::nullopt;
+  // Of two sizes seen equally often, the larger: a hand may cover a column, nothing adds one.
+  const auto best = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.second, a.first.first * a.first.second) <
+           std::pair(b.second, b.first.first * b.first.second);
+  });
+  return Board{best->first.first, best->first.second, 0};
+}
+
+PairSearch search(const PicturePair& pair, const Board& board) {
+  PairSearch result;
+  const auto left = find_board(pair.left.view(), board, Effort::kThorough);
+  const auto right = find_board(pair.right.view(), board, Effort::kThorough);
+  if (left) result.corners.left = left->corners, result.left_edge_px = left->edge_width_px;
+  if (right) result.corners.right = right->corners, result.right_edge_px = right->edge_width_px;
+  if (!left && !right) {
+    result.problem = "no whole board found in either picture";
+  } else if (!left || !right) {
+    result.problem = std::string("no whole board found in the ") + (left ? "right" : "left") + " picture";
+  } else if (const auto turned = turned_like(left->corners, board, right->corners)) {
+    result.corners.right = *turned;
+  } else {
+    result.problem =
+        "which end of the board is which cannot be told: it is turned differently in the two pictures, and "
+        "this board looks the same from several sides";
+  }
+  return result;
+}
+
+bool same_size(const Board& a, const Board& b) {
+  return std::minmax(a.columns, a.rows) == std::minmax(b.columns, b.rows);
+}
+
+// Before the long search: is it this board? One that is larger is found as well, less its edge; one that
+// seems smaller may be partly hidden in just these pictures.
+void require_size(const std::vector<PicturePair>& pictures, const Board& board) {
+  const auto there = board_in(pictures);
+  if (!there || same_size(*there, board)) return;
+  if (there->columns * there->rows <= board.columns * board.rows) {
+    for (const std::size_t place : evenly_spread(std::min(kSamples, pictures.size()), pictures.size())) {
+      if (find_board(pictures[place].left.view(), board, Effort::kThorough)) return;
+    }
+  }
+  throw CalibrationError("the pictures show a board of " + in_words(*there) + ", not " + in_words(board) +
+                         "; say --board " + std::to_string(there->columns) + "x" +
+                         std::to_string(there->rows) + " (inner corners are those where four squares meet)");
+}
+
+}  // namespace
+
+Board guess_board(const std::vector<PicturePair>& pictures) {
+  if (const auto board = board_in(pictures)) return *board;
+  throw CalibrationError(
+      "no chessboard was found in the pictures; the whole board with its white border must be seen, flat, "
+      "sharp and evenly lit");
+}
+
+std::vector<PairSearch> search_boards(const std::vector<PicturePair>& pictures, const Board& board) {
+  require_size(pictures, board);
+  std::vector<PairSearch> results(pictures.size());
+  {
+    std::mutex mutex;
+    Progress progress("looking for the board", pictures.size());
+    in_parallel(pictures.size(), [&](std::size_t i) {
+      results[i] = search(pictures[i], board);
+      const std::lock_guard lock(mutex);
+      progress.step();
+    });
+  }
+  const bool found = std::any_of(results.begin(), results.end(), [](const PairSearch& r) {
+    return !r.corners.left.empty() || !r.corners.right.empty();
+  });
+  if (!found) {
+    throw CalibrationError("no board with " + in_words(board) +
+                           " was found in any picture, nor one of another size; the whole board with its "
+                           "white border must be seen, flat, sharp and evenly lit");
+  }
+  return results;
+}
+
+}  // namespace stereod

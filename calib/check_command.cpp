@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numeric>
+
+#include "calib/board_search.h"
+#include "calib/camera_solver.h"
+#include "calib/commands.h"
+#include "calib/coverage.h"
+#include "calib/depth_error.h"
+#include "calib/errors.h"
+#include "calib/html.h"
+#include "calib/misalignment.h"
+#include "calib/pair_input.h"
+#include "calib/progress.h"
+#include "calib/rectified_view.h"
+#include "calib/verdict.h"
+#include "daemon/config/calibration_file.h"
+
+namespace stereod {
+
+namespace {
+
+struct Flags {
+  std::filesystem::path calibration;
+  PairInput input;
+  std::string board = "auto", square;
+};
+
+// What was measured, with a board or without.
+struct Measured {
+  double row_error_px = 0;
+  std::string how;         // a sentence
+  double scale_error = 0;  // 0 if the square is not known
+  bool scale_known = false;
+};
+
+Measured with_board(const Calibration& calibration, const std::vector<PicturePair>& pictures, Board board,
+                    const std::string& square) {
+  if (!square.empty()) board.square_m = parse_length(square, "--square");
+  const bool sized = board.square_m > 0;
+  if (!sized) board.square_m = 0.025;  // rows do not depend on it
+  Measured result;
+  double count = 0;
+  for (std::size_t i = 0; const PairSearch& pair : search_boards(pictures, board)) {
+    const std::string& name = pictures[i++].name;
+    if (!pair.problem.empty()) {
+      std::printf("%s: %s\n", name.c_str(), pair.problem.c_str());
+      continue;
+    }
+    const BoardPose pose = solve_pose(calibration.left.camera, board, pair.corners.left);
+    const PairCheck check = check_pair(calibration, board, pair.corners, pose);
+    std::printf("%s: rows %.2f px apart\n", name.c_str(), check.row_error_px);
+    result.row_error_px += check.row_error_px;
+    result.scale_error += check.scale_error;
+    count += 1;
+  }
+  if (count == 0)
+    throw CalibrationError("no pair shows the whole board in both pictures; there is nothing to check");
+  result.row_error_px /= count;
+  result.scale_error /= count;
+  result.scale_known = sized;
+  result.how = "measured on a board of " + in_words(board) + " in " + fixed(count, 0) + " pairs";
+  return result;
+}
+
+Measured without_board(const Calibration& calibration, const std::vector<PicturePair>& pictures) {
+  std::vector<RowMatch> all;
+  {
+    Progress progress("matching", pictures.size());
+    for (const PicturePair& pair : pictures) {
+      const auto matches = match_rows(rectified_view(calibration.left, pair.left.view()).view(),
+                                      rectified_view(calibration.right, pair.right.view()).view());
+      all.insert(all.end(), matches.begin(), matches.end());
+      progress.step();
+    }
+  }
+  const auto found = misalignment(all, calibration.image);
+  if (!found) {
+    throw CalibrationError(
+        "only " + std::to_string(all.size()) +
+        " points of the pictures were found again in their partners, too few to tell; show a "
+        "scene with texture, or a board, or the calibration is off by many pixels");
+  }
+  Measured result;
+  result.row_error_px = found->row_error_px;
+  result.how = "measured on " + std::to_string(found->points) + " points of " +
+               std::to_string(pictures.size()) + " pairs; worst in " + part_in_words(found->worst_part) +
+               ", " + fixed(found->worst_px, 2) + " px";
+  return result;
+}
+
+std::optional<Board> board_for(const Flags& flags, const std::vector<PicturePair>& pictures) {
+  if (flags.board == "none") return std::nullopt;
+  if (flags.board != "auto") return parse_board(flags.board);
+  try {
+    return guess_board(pictures);
+  } catch (const CalibrationError&) {
+    return std::nullopt;
+  }
+}
+
+int run(const Flags& flags) {
+  const Calibration calibration = read_calibration(flags.calibration);
+  const std::vector<PicturePair> pictures = read_pairs(flags.input);
+  const Size size = pictures.front().left.size();
+  if (size != calibration.image) {
+    throw CalibrationError(
+        "the pictures are " + std::to_string(size.width) + "×" + std::to_string(size.height) +
+        ", the calibration is for " + std::to_string(calibration.image.width) + "×" +
+        std::to_string(calibration.image.height) + "; take pictures of that size, or calibrate at this one");
+  }
+  const auto board = board_for(flags, pictures);
+  const Measured measured =
+      board ? with_board(calibration, pictures, *board, flags.square) : without_board(calibration, pictures);
+
+  Grade grade = grade_of_row_error(measured.row_error_px);
+  std::printf("row error: %.2f px (%s)\n", measured.row_error_px, measured.how.c_str());
+  if (measured.scale_known) {
+    std::printf("lengths measured come out %.2f %% too %s\n", 100 * std::abs(measured.scale_error),
+                measured.scale_error < 0 ? "short" : "long");
+    if (std::abs(measured.scale_error) > 0.02) grade = Grade::kDoAgain;
+  }
+  std::string depth;
+  for (const double z : kReportedDepths_m) {
+    const DepthErrorSources sources{measured.row_error_px, std::abs(measured.scale_error)};
+    depth += (depth.empty() ? "" : ", ") + length_in_words(expected_depth_error_m(calibration, sources, z)) +
+             " at " + fixed(z, z < 1 ? 1 : 0) + " m";
+  }
+  std::printf("what it means for depth, if disparities are off by as much as rows: %s\n", depth.c_str());
+  std::printf("verdict: %s\n", grade == Grade::kGood ? "good; no need to calibrate again"
+                               : grade == Grade::kUsable
+                                   ? "usable; calibrate again when there is time"
+                                   : "calibrate again: the matcher loses points, and depth "
+                                     "is wrong");
+  return grade == Grade::kDoAgain ? kExitBadResult : kExitGood;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, int& status) {
+  CLI::App* command =
+      app.add_subcommand("check", "is a calibration still right? on new pictures, with a board or without");
+  auto flags = std::make_shared<Flags>();
+  command->add_option("CALIBRATION", flags->calibration, "calibration.yaml")->required();
+  command->add_option("FOLDER", flags->input.folder, "pairs, as for solve");
+  command->add_option("--left", flags->input.left, "the left camera's pictures, in order");
+  command->add_option("--right", flags->input.right, "the right camera's pictures, in the same order");
+  command->add_option("--side-by-side", flags->input.side_by_side, "pictures with both halves");
+  command->add_option("--board", flags->board, "inner corners like 9x6, none for any scene, or auto")
+      ->capture_default_str();
+  command->add_option("--square", flags->square, "side of a square with its unit: checks lengths as well");
+  command->callback([flags, &status] { status = run(*flags); });
+}
+
+}  // namespace stereod

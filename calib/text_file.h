@@ -1,0 +1,17 @@
+// Writing a file as a whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace stereod {
+
+/// Writes to a temporary file beside `file`, which it then replaces. Throws FileError; what was there before
+/// is then still there.
+void write_text_file(const std::filesystem::path& file, std::string_view text);
+
+/// Throws FileError if a file of this name could not be written: its folder is not there, or it is a folder.
+/// For asking before long work.
+void require_writable(const std::filesystem::path& file);
+
+}  // namespace stereod

@@ -1,0 +1,369 @@
+// stereo-calibrate as a user runs it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "calib/board_finder.h"
+#include "calib/depth_error.h"
+#include "calib/exchange.h"
+#include "calib/misalignment.h"
+#include "calib/rectified_view.h"
+#include "calib/text_file.h"
+#include "core/depth.h"
+#include "core/match/frame_matcher.h"
+#include "core/rectify_map.h"
+#include "daemon/config/calibration_file.h"
+#include "daemon/imagefile/read_image.h"
+#include "daemon/imagefile/write_image.h"
+#include "tests/support/board_scene.h"
+#include "tests/support/network.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_directory.h"
+
+namespace stereod {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+const Board kBoard{9, 6, 0.025};
+constexpr Size kImage{320, 240};
+
+std::string two_digits(std::size_t number) {
+  return (number < 10 ? "0" : "") + std::to_string(number) + ".png";
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// A folder with rendered pairs of known cameras, made once.
+class Program : public testing::Test {
+ public:
+  static void SetUpTestSuite() {
+    pairs_ = new TemporaryDirectory;
+    const BoardScene scene(known_cameras(kImage), kBoard);
+    std::size_t number = 0;
+    for (const BoardPose& pose : varied_poses(kBoard, 18)) {
+      const PicturePair pair = scene.render(pose, number);
+      write_png(*pairs_ / ("left_" + two_digits(number)), pair.left.view());
+      write_png(*pairs_ / ("right_" + two_digits(number)), pair.right.view());
+      ++number;
+    }
+  }
+  static void TearDownTestSuite() { delete pairs_; }
+
+ protected:
+  ProgramRun run(const std::vector<std::string>& arguments) const {
+    return run_program(fs::path(STEREOD_BIN_DIR) / "stereo-calibrate", arguments, folder_.path());
+  }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  static std::string left(std::size_t number) { return (*pairs_ / ("left_" + two_digits(number))).string(); }
+  static std::string right(std::size_t number) {
+    return (*pairs_ / ("right_" + two_digits(number))).string();
+  }
+
+  static TemporaryDirectory* pairs_;
+  TemporaryDirectory folder_;
+};
+TemporaryDirectory* Program::pairs_ = nullptr;
+
+TEST_F(Program, SolvesAFolderAndWritesCalibrationAndReport) {
+  const ProgramRun result = run({"solve", pairs_->path().string(), "--square", "25mm", "-o", file("c.yaml"),
+                                 "--report", file("r.html")});
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, StartsWith("verdict: good"));
+  EXPECT_THAT(result.out, HasSubstr("14 used, 4 held back to check with, 0 left out"));
+  const Calibration found = read_calibration(file("c.yaml"));
+  EXPECT_NEAR(found.left.camera.fx / known_cameras(kImage).left.fx, 1, 0.003);
+  EXPECT_EQ(found.quality.pairs_used, 14);
+
+  const std::string page = text_of(file("r.html"));
+  EXPECT_THAT(page, StartsWith("<!DOCTYPE html>"));
+  for (const char* word :
+       {"<h1>good</h1>", "Where the board has been", "A rectified pair", "How far off depth", "Every pair",
+        "left_17.png, right_17.png", "held back", "epipolar", "0.5 m", "10 m"}) {
+    EXPECT_THAT(page, HasSubstr(word));
+  }
+  // Nothing is fetched from anywhere.
+  EXPECT_THAT(page, Not(HasSubstr("http")));
+  EXPECT_THAT(page, Not(HasSubstr("src=")));
+}
+
+TEST_F(Program, SolvesSideBySidePictures) {
+  std::vector<std::string> arguments{"solve", "--square", "2.5cm",        "--board",
+                                     "9x6",   "-o",       file("c.yaml"), "--side-by-side"};
+  for (std::size_t i = 0; i < 8; ++i) {
+    const GreyImage l = read_grey(left(i)), r = read_grey(right(i));
+    GreyImage both(2 * kImage.width, kImage.height);
+    for (int y = 0; y < kImage.height; ++y) {
+      std::copy_n(l.row(y), kImage.width, both.row(y));
+      std::copy_n(r.row(y), kImage.width, both.row(y) + kImage.width);
+    }
+    write_png(folder_ / ("both_" + two_digits(i)), both.view());
+    arguments.push_back(file("both_" + two_digits(i)));
+  }
+  const ProgramRun result = run(arguments);
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  EXPECT_EQ(read_calibration(file("c.yaml")).image, kImage);
+}
+
+TEST_F(Program, BadInputIsOneSentenceAndTouchesNothing) {
+  write_text_file(folder_ / "c.yaml", "what was there before");
+  write_png(folder_ / "small.png", GreyImage(64, 48).view());
+  write_text_file(folder_ / "text.png", "no picture");
+  std::vector<std::string> lefts, rights;
+  for (std::size_t i = 0; i < 6; ++i) lefts.push_back(left(i)), rights.push_back(right(i));
+  const auto solve = [&](std::vector<std::string> l, std::vector<std::string> r,
+                         const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"solve", "-o", file("c.yaml"), "--left"};
+    arguments.insert(arguments.end(), l.begin(), l.end());
+    arguments.push_back("--right");
+    arguments.insert(arguments.end(), r.begin(), r.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  const std::vector<std::string> sane{"--board", "9x6", "--square", "25mm"};
+  auto with = [](std::vector<std::string> list, const std::string& file) {
+    list[2] = file;
+    return list;
+  };
+  struct Case {
+    std::vector<std::string> arguments;
+    const char* sentence;
+  };
+  const std::vector<Case> cases = {
+      {solve(lefts, rights, {"--board", "8x5", "--square", "25mm"}),
+       "9×6 inner corners, not 8×5 inner corners"},
+      {solve(lefts, rights, {"--board", "nine", "--square", "25mm"}), "--board: found 'nine'"},
+      {solve(lefts, rights, {"--board", "9x6", "--square", "25"}), "--square: found '25'"},
+      {solve(lefts, rights, {"--board", "9x6"}), "--square"},
+      {solve(lefts, rights, {"--square", "25mm", "--lens", "glass"}), "--lens: found 'glass'"},
+      {solve(rights, lefts, sane), "left and right are swapped"},
+      {solve(lefts, lefts, sane), "left and right are the same picture"},
+      {solve({lefts[0]}, {rights[0]}, sane), "there is only one pair of pictures"},
+      {solve({lefts[0]}, rights, sane), "there are 1 left pictures and 6 right ones"},
+      {solve(with(lefts, file("small.png")), rights, sane), "has 64×48 pixels"},
+      {solve(with(lefts, file("text.png")), rights, sane), "text.png"},
+      {solve(with(lefts, file("none.png")), rights, sane), "none.png"},
+      {{"solve", "--square", "25mm", "-o", file("c.yaml")}, "there are no pictures"},
+      {{"solve", folder_.path().string(), "--square", "25mm", "-o", file("c.yaml")},
+       "there is no stereo pair"},
+      {{"solve", pairs_->path().string(), "--square", "25mm", "-o", file("none/c.yaml")},
+       "there is no folder"},
+      {{"solve", pairs_->path().string(), "--square", "25mm", "--sqare", "1"}, "--sqare"},
+      {{"check", file("c.yaml"), pairs_->path().string()}, "expected a map"},
+      {{"check", file("none.yaml"), pairs_->path().string()}, "there is no such file"},
+      {{"import", "-o", file("c.yaml")}, "--ros, --opencv or --kalibr"},
+      {{"import", "--kalibr", file("none.yaml"), "-o", file("c.yaml")}, "there is no such file"},
+      {{"import", "--opencv", left(0), left(1), "-o", file("c.yaml")}, "FileStorage"},
+      {{"board", "--paper", "a9"}, "--paper: found 'a9'"},
+      {{"board", "-o", file("board.doc")}, "written as .pdf or .svg"},
+      {{"capture", "--config", file("none.yaml"), "--square", "25mm"}, "there is no such file"},
+      {{"capture", "--square", "25mm", "-o", file("c.yaml")}, "say where the pictures come from"},
+      {{}, "subcommand"},
+  };
+  for (const Case& each : cases) {
+    const ProgramRun result = run(each.arguments);
+    EXPECT_EQ(result.status, 2) << each.sentence << result.out;
+    EXPECT_THAT(result.err, HasSubstr(each.sentence));
+    EXPECT_THAT(result.err, StartsWith("stereo-calibrate: "));
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(text_of(file("c.yaml")), "what was there before") << each.sentence;
+  }
+}
+
+// The board only ever in the middle: solvable, but not to be used.
+TEST_F(Program, AResultToDoAgainIsReportedAndReplacesNothing) {
+  write_text_file(folder_ / "c.yaml", "what was there before");
+  const BoardScene scene(known_cameras(kImage), kBoard);
+  fs::create_directory(folder_ / "pairs");
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double tilt = 0.1 * static_cast<double>(i) - 0.3;
+    const PicturePair pair = scene.render(board_at(kBoard, {0.03, 0, 0.6}, {tilt, -0.2 + 0.5 * tilt, 0}), i);
+    write_png(folder_ / ("pairs/left_" + two_digits(i)), pair.left.view());
+    write_png(folder_ / ("pairs/right_" + two_digits(i)), pair.right.view());
+  }
+  const ProgramRun result =
+      run({"solve", file("pairs"), "--square", "25mm", "-o", file("c.yaml"), "--report", file("r.html")});
+  EXPECT_EQ(result.status, 1) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("verdict: do again"));
+  EXPECT_THAT(result.out, HasSubstr("was not touched"));
+  EXPECT_EQ(text_of(file("c.yaml")), "what was there before");
+  EXPECT_THAT(text_of(file("r.html")), HasSubstr("<h1>do again</h1>"));
+}
+
+TEST_F(Program, OpenCvFilesComeBackToTheBit) {
+  ASSERT_EQ(run({"solve", pairs_->path().string(), "--square", "25mm", "-o", file("c.yaml")}).status, 0);
+  for (const std::string ending : {".yml", ".xml", ".json"}) {
+    EXPECT_EQ(run({"export", file("c.yaml"), "--opencv", file("in" + ending), file("ex" + ending)}).status,
+              0);
+    EXPECT_EQ(
+        run({"import", "--opencv", file("in" + ending), file("ex" + ending), "-o", file("d.yaml")}).status,
+        0);
+    EXPECT_EQ(text_of(file("d.yaml")), text_of(file("c.yaml"))) << ending;
+  }
+  EXPECT_EQ(run({"export", file("c.yaml"), "--ros", file("l.yaml"), file("r.yaml")}).status, 0);
+  EXPECT_EQ(run({"import", "--ros", file("l.yaml"), file("r.yaml"), "-o", file("d.yaml")}).status, 0);
+  EXPECT_EQ(text_of(file("d.yaml")), text_of(file("c.yaml")));
+}
+
+// As the sample stereo_calib leaves them: squares for a unit, no image size.
+TEST_F(Program, ImportsWhatOpenCvsSampleWrites) {
+  const Calibration c = [] {
+    const StereoCameras k = known_cameras(kImage);
+    return rectified_pair(k.left, k.right, k.pose);
+  }();
+  write_opencv(file("in.yml"), file("ex.yml"), c);
+  // Without what only we write; lengths in squares of 25 mm.
+  std::string in = text_of(file("in.yml")), ex = text_of(file("ex.yml"));
+  in.resize(in.find("image_width"));
+  ex.resize(ex.find("baseline_m"));
+  write_text_file(file("in.yml"), in);
+  write_text_file(file("ex.yml"), ex);
+  EXPECT_THAT(run({"import", "--opencv", file("in.yml"), file("ex.yml"), "-o", file("d.yaml")}).err,
+              HasSubstr("--image-size"));
+  ASSERT_EQ(run({"import", "--opencv", file("in.yml"), file("ex.yml"), "--image-size", "320x240", "--unit",
+                 "25mm", "-o", file("d.yaml")})
+                .status,
+            0);
+  const Calibration d = read_calibration(file("d.yaml"));
+  EXPECT_EQ(d.left, c.left);
+  EXPECT_EQ(d.right, c.right);
+  EXPECT_NEAR(d.baseline_m, 0.025 * c.baseline_m, 1e-12);
+  // Rectified anew, where the file has only R and T.
+  ex.resize(ex.find("R1:"));
+  write_text_file(file("ex.yml"), ex);
+  ASSERT_EQ(run({"import", "--opencv", file("in.yml"), file("ex.yml"), "--image-size", "320x240", "-o",
+                 file("d.yaml")})
+                .status,
+            0);
+  EXPECT_NEAR(read_calibration(file("d.yaml")).baseline_m, c.baseline_m, 1e-12);
+}
+
+TEST_F(Program, ChecksWithABoard) {
+  const StereoCameras k = known_cameras(kImage);
+  write_calibration(file("true.yaml"), rectified_pair(k.left, k.right, k.pose));
+  ProgramRun result = run({"check", file("true.yaml"), pairs_->path().string(), "--square", "25mm"});
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("verdict: good"));
+
+  StereoPose knocked = k.pose;  // a third of a degree
+  knocked.rotation = rotation_about({0.006, 0, 0}) * knocked.rotation;
+  write_calibration(file("knocked.yaml"), rectified_pair(k.left, k.right, knocked));
+  result = run({"check", file("knocked.yaml"), pairs_->path().string(), "--board", "9x6"});
+  EXPECT_EQ(result.status, 1) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("verdict: calibrate again"));
+
+  // Squares of another size than was said: rows fit, lengths do not.
+  result = run({"check", file("true.yaml"), pairs_->path().string(), "--square", "26mm"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, HasSubstr("too short"));
+}
+
+TEST_F(Program, BoardsAreFoundAgainInWhatIsPrinted) {
+  if (std::system("command -v pdftoppm >/dev/null") != 0)
+    GTEST_SKIP() << "pdftoppm (poppler-utils) is not here";
+  ASSERT_EQ(run({"board", "--board", "7x5", "--square", "28mm", "-o", file("b.pdf")}).status, 0);
+  const std::string draw = "pdftoppm -r 100 -gray -png -singlefile " + file("b.pdf") + " " + file("b");
+  ASSERT_EQ(std::system(draw.c_str()), 0);
+  const GreyImage page = read_grey(file("b.png"));
+  const Board printed{7, 5, 0.028};
+  const auto found = find_board(page.view(), printed, Effort::kThorough);
+  ASSERT_TRUE(found.has_value());
+  const Corners& c = found->corners;
+  const double pixels = std::hypot(c[6].x - c[0].x, c[6].y - c[0].y);
+  EXPECT_NEAR(pixels / 100 * 25.4, 168, 0.3);  // six squares, mm
+}
+
+// Plays a board before two cameras: it moves, rests, moves on.
+TEST_F(Program, CaptureGuidesTakesAndSolves) {
+  const StereoCameras cameras = known_cameras(kImage);
+  const BoardScene scene(cameras, kBoard);
+  const std::vector<BoardPose> poses = varied_poses(kBoard, 18);
+  fs::create_directory(folder_ / "play");
+  std::size_t number = 0;
+  const auto play = [&](const BoardPose& pose) {
+    const PicturePair pair = scene.render(pose, number);
+    write_png(folder_ / ("play/left_" + std::to_string(number) + ".png"), pair.left.view());
+    write_png(folder_ / ("play/right_" + std::to_string(number) + ".png"), pair.right.view());
+    ++number;
+  };
+  BoardPose away = poses[0];
+  away.translation_m.x += 2;
+  play(away);
+  for (const BoardPose& pose : poses) {
+    BoardPose passing = pose;
+    passing.translation_m.x += 0.01;
+    play(passing);
+    for (int frame = 0; frame < 4; ++frame) play(pose);
+  }
+  write_text_file(folder_ / "config.yaml",
+                  "cameras:\n  source: replay\n  fps: 0\n  replay:\n    folder: play\n    loop: false\n");
+  const ProgramRun result =
+      run({"capture", "--config", file("config.yaml"), "--board", "9x6", "--square", "25mm", "--port", "0",
+           "--pairs", "14", "--keep", file("kept"), "-o", file("c.yaml"), "--report", file("r.html")});
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  for (const char* words : {"show the whole board to both cameras", "hold still", "tilt the board",
+                            "left no ", "left yes right yes"}) {
+    EXPECT_THAT(result.err, HasSubstr(words));
+  }
+  EXPECT_THAT(result.out, HasSubstr("pairs taken\nverdict: good"));
+  const Calibration found = read_calibration(file("c.yaml"));
+  EXPECT_NEAR(found.left.camera.fx / cameras.left.fx, 1, 0.003);
+  EXPECT_NEAR(found.baseline_m / 0.06, 1, 0.003);
+  EXPECT_TRUE(fs::exists(folder_ / "kept/left_13.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "r.html"));
+}
+
+TEST_F(Program, CaptureWithoutABoardSaysSo) {
+  write_text_file(folder_ / "config.yaml",
+                  "cameras:\n  source: replay\n  fps: 0\n  replay:\n    left: " + file("g.png") +
+                      "\n    right: " + file("g.png") + "\n    loop: false\n");
+  write_png(folder_ / "g.png", GreyImage(kImage).view());
+  const ProgramRun result = run(
+      {"capture", "--config", file("config.yaml"), "--square", "25mm", "--port", "0", "-o", file("c.yaml")});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("at least 5 are needed"));
+  EXPECT_FALSE(fs::exists(folder_ / "c.yaml"));
+}
+
+// The daemon plays the board, stereo-calibrate takes its raw pictures over LCM.
+TEST_F(Program, CaptureTakesTheRunningDaemonsPictures) {
+  if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
+  fs::create_directory(folder_ / "play");
+  std::size_t number = 0;
+  // At ten frames a second each pose rests for most of a second; the recording begins again until all is
+  // taken.
+  for (std::size_t pose = 0; pose < 16; ++pose) {
+    for (int frame = 0; frame < 8; ++frame, ++number) {
+      fs::create_symlink(left(pose), folder_ / ("play/left_" + std::to_string(number) + ".png"));
+      fs::create_symlink(right(pose), folder_ / ("play/right_" + std::to_string(number) + ".png"));
+    }
+  }
+  write_text_file(folder_ / "config.yaml",
+                  "cameras:\n  source: replay\n  fps: 10\n  replay:\n    folder: play\n"
+                  "lcm:\n  prefix: BOARDS\n  raw_images: true\n  raw_images_per_second: 10\n");
+  fs::create_directory(folder_ / "daemon");
+  ChildProgram daemon(fs::path(STEREOD_BIN_DIR) / "stereod", {"--config", file("config.yaml")},
+                      folder_ / "daemon");
+  const ProgramRun result = run({"capture", "--daemon", "--prefix", "BOARDS", "--square", "25mm", "--port",
+                                 "0", "--pairs", "10", "-o", file("c.yaml")});
+  daemon.send(SIGTERM);
+  EXPECT_EQ(daemon.wait().status, 0);
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  EXPECT_NEAR(read_calibration(file("c.yaml")).left.camera.fx / known_cameras(kImage).left.fx, 1, 0.01);
+}
+
+}  // namespace
+}  // namespace stereod

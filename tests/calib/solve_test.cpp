@@ -1,0 +1,305 @@
+// Calibration of cameras that are known, and of real ones.
+#include "calib/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "calib/errors.h"
+#include "calib/misalignment.h"
+#include "calib/rectified_view.h"
+#include "calib/report.h"
+#include "core/rectify_map.h"
+#include "tests/support/board_scene.h"
+
+namespace stereod {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<PicturePair> rendered(const StereoCameras& cameras, const Board& board, int count) {
+  const BoardScene scene(cameras, board);
+  std::vector<PicturePair> pairs;
+  for (const BoardPose& pose : varied_poses(board, count)) pairs.push_back(scene.render(pose, pairs.size()));
+  return pairs;
+}
+
+SolveOptions options_for(const Board& board, LensChoice lens = LensChoice::kPinhole) {
+  return {board, board.square_m, lens};
+}
+
+void expect_found(const Calibration& found, const StereoCameras& truth) {
+  EXPECT_NEAR(found.left.camera.fx / truth.left.fx, 1, 0.003);
+  EXPECT_NEAR(found.left.camera.fy / truth.left.fy, 1, 0.003);
+  EXPECT_NEAR(found.right.camera.fx / truth.right.fx, 1, 0.003);
+  EXPECT_NEAR(found.right.camera.fy / truth.right.fy, 1, 0.003);
+  const Vector3& t = truth.pose.translation_m;
+  EXPECT_NEAR(found.baseline_m / std::sqrt(t.x * t.x + t.y * t.y + t.z * t.z), 1, 0.003);
+}
+
+std::string refusal(const std::vector<PicturePair>& pictures, const SolveOptions& options) {
+  try {
+    solve(pictures, options);
+  } catch (const CalibrationError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+const Board kBoard{9, 6, 0.025};
+
+const std::vector<PicturePair>& known_pictures() {
+  static const auto pictures = rendered(known_cameras({640, 480}), kBoard, 20);
+  return pictures;
+}
+
+TEST(Solve, FindsKnownCameras) {
+  const SolveResult result = solve(known_pictures(), options_for(kBoard));
+  expect_found(result.calibration, known_cameras({640, 480}));
+  EXPECT_EQ(result.count(PairFate::kLeftOut), 0);
+  EXPECT_EQ(result.count(PairFate::kHeldBack), 4);
+  EXPECT_LT(result.calibration.quality.rms_px, 0.15);
+  EXPECT_LT(result.held_back.row_error_px, 0.1);
+  EXPECT_LT(std::abs(result.held_back.scale_error), 0.002);
+  EXPECT_EQ(assess(result).verdict.grade, Grade::kGood) << summary_text(result, assess(result));
+}
+
+TEST(Solve, FindsTheBoardByItself) {
+  SolveOptions options{std::nullopt, kBoard.square_m, LensChoice::kPinhole};
+  const SolveResult result = solve(known_pictures(), options);
+  EXPECT_EQ(result.board, kBoard);
+  expect_found(result.calibration, known_cameras({640, 480}));
+}
+
+TEST(Solve, FindsKnownFisheyeCameras) {
+  const StereoCameras truth = known_cameras({640, 480}, LensModel::kFisheye);
+  const SolveResult result = solve(rendered(truth, kBoard, 20), options_for(kBoard, LensChoice::kFisheye));
+  expect_found(result.calibration, truth);
+  EXPECT_EQ(result.calibration.left.camera.lens, LensModel::kFisheye);
+  EXPECT_LT(result.held_back.row_error_px, 0.1);
+}
+
+TEST(Solve, FindsKnownRationalCameras) {
+  StereoCameras truth = known_cameras({640, 480});
+  for (CameraModel* camera : {&truth.left, &truth.right}) {
+    set_distortion(*camera, std::vector<double>{0.6, 0.05, 0.0004, -0.0003, 0, 0.9, 0.15, 0});
+  }
+  const SolveResult result = solve(rendered(truth, kBoard, 36), options_for(kBoard, LensChoice::kRational));
+  expect_found(result.calibration, truth);
+  EXPECT_LT(result.held_back.row_error_px, 0.1);
+  EXPECT_EQ(assess(result).verdict.grade, Grade::kGood) << summary_text(result, assess(result));
+}
+
+// With more coefficients than the lens has, some are fitted to noise; at worst they break down where no
+// corner was, which the verdict must then say.
+TEST(Solve, SurvivesLensModelsWithTooManyCoefficients) {
+  for (const LensChoice lens : {LensChoice::kThinPrism, LensChoice::kTilted}) {
+    const SolveResult result = solve(known_pictures(), options_for(kBoard, lens));
+    EXPECT_EQ(distortion_of(result.calibration.left.camera).size(), lens == LensChoice::kTilted ? 14U : 12U);
+    EXPECT_LT(result.calibration.quality.rms_px, 0.15);
+    EXPECT_LT(result.held_back.row_error_px, 0.1);
+    EXPECT_NEAR(result.calibration.baseline_m / 0.06, 1, 0.01);
+  }
+}
+
+// 8×6 and 9×7 look the same after half a turn, 7×7 after a quarter.
+TEST(Solve, ResolvesWhichEndOfTheBoardIsWhich) {
+  for (const Board& board : {Board{8, 6, 0.028}, Board{7, 7, 0.028}}) {
+    auto pictures = rendered(known_cameras({640, 480}), board, 15);
+    const SolveResult result = solve(pictures, options_for(board));
+    expect_found(result.calibration, known_cameras({640, 480}));
+    EXPECT_EQ(result.count(PairFate::kLeftOut), 0);
+  }
+}
+
+TEST(Solve, LeavesOutAPairWhoseBoardMoved) {
+  auto pictures = copy_of(known_pictures());
+  const SolveResult before = solve(pictures, options_for(kBoard));
+  pictures[7].right = copy_of(pictures[12].right);
+  const SolveResult after = solve(pictures, options_for(kBoard));
+  EXPECT_EQ(after.pairs[7].fate, PairFate::kLeftOut);
+  EXPECT_NE(after.pairs[7].reason.find("the board moved"), std::string::npos) << after.pairs[7].reason;
+  EXPECT_EQ(after.count(PairFate::kLeftOut), 1);
+  EXPECT_NEAR(after.calibration.left.camera.fx / before.calibration.left.camera.fx, 1, 0.05);
+  EXPECT_NEAR(after.calibration.baseline_m / before.calibration.baseline_m, 1, 0.05);
+}
+
+// Six pixels are a quarter of a square: less than any threshold on where the board is.
+TEST(Solve, LeavesOutAPairWhoseBoardMovedALittle) {
+  auto pictures = copy_of(known_pictures());
+  const BoardScene scene(known_cameras({640, 480}), kBoard);
+  BoardPose pose = varied_poses(kBoard, 20)[3];
+  pose.translation_m.y += 0.004;
+  pictures[3].right = scene.render(pose, 99).right;
+  const SolveResult result = solve(pictures, options_for(kBoard));
+  EXPECT_EQ(result.pairs[3].fate, PairFate::kLeftOut);
+  EXPECT_EQ(result.count(PairFate::kLeftOut), 1);
+}
+
+TEST(Solve, LeavesOutBlurredAndRepeatedPictures) {
+  auto pictures = copy_of(known_pictures());
+  GreyImage& blurred = pictures[5].left;
+  for (int pass = 0; pass < 6; ++pass) {
+    const GreyImage before = copy_of(blurred);
+    for (int y = 0; y < blurred.height(); ++y) {
+      for (int x = 3; x + 3 < blurred.width(); ++x) {
+        int sum = 0;
+        for (int dx = -3; dx <= 3; ++dx) sum += before.at(x + dx, y);
+        blurred.at(x, y) = static_cast<std::uint8_t>(sum / 7);
+      }
+    }
+  }
+  pictures[9].left = copy_of(pictures[8].left), pictures[9].right = copy_of(pictures[8].right);
+  const SolveResult result = solve(pictures, options_for(kBoard));
+  EXPECT_EQ(result.pairs[5].fate, PairFate::kLeftOut);
+  EXPECT_TRUE(result.pairs[5].reason.starts_with("blurred: the left") ||
+              result.pairs[5].reason.starts_with("no whole board found in the left"))
+      << result.pairs[5].reason;
+  EXPECT_EQ(result.pairs[9].reason, "shows the same left picture as pair 8");
+}
+
+TEST(Solve, SaysThatLeftAndRightAreSwapped) {
+  auto pictures = copy_of(known_pictures());
+  for (PicturePair& pair : pictures) std::swap(pair.left, pair.right);
+  EXPECT_TRUE(refusal(pictures, options_for(kBoard)).starts_with("left and right are swapped"));
+}
+
+TEST(Solve, SaysWhichBoardIsThereInstead) {
+  for (const Board& wrong : {Board{8, 5, 0.025}, Board{10, 7, 0.025}, Board{7, 6, 0.025}}) {
+    const std::string sentence = refusal(known_pictures(), options_for(wrong));
+    EXPECT_NE(sentence.find("9×6 inner corners, not"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("say --board 9x6"), std::string::npos) << sentence;
+  }
+}
+
+TEST(Solve, SaysThatThereIsNoBoard) {
+  std::vector<PicturePair> pictures(6);
+  for (PicturePair& pair : pictures) pair = {"grey", GreyImage(320, 240), GreyImage(320, 240)};
+  EXPECT_TRUE(
+      refusal(pictures, options_for(kBoard)).starts_with("no board with 9×6 inner corners was found"));
+  EXPECT_TRUE(
+      refusal(pictures, {std::nullopt, 0.025, LensChoice::kPinhole}).starts_with("no chessboard was"));
+}
+
+TEST(Solve, SaysThatThereAreTooFewPairs) {
+  std::vector<PicturePair> one = copy_of(known_pictures());
+  one.resize(1);
+  EXPECT_TRUE(
+      refusal(one, options_for(kBoard)).starts_with("there is only one pair of pictures; at least 5"));
+  std::vector<PicturePair> six = copy_of(known_pictures());
+  six.resize(6);
+  six[1].left = GreyImage(640, 480), six[2].right = GreyImage(640, 480);
+  const std::string sentence = refusal(six, options_for(kBoard));
+  EXPECT_TRUE(sentence.starts_with("there are 4 good pairs")) << sentence;
+  EXPECT_NE(sentence.find("pair 1: no whole board found in the left picture"), std::string::npos) << sentence;
+}
+
+fs::path datasets() {
+  if (const char* set = std::getenv("STEREO_DATASETS")) return set;
+  return fs::path(STEREOD_SOURCE_DIR) / ".." / "shared" / "datasets";
+}
+
+struct RealSet {
+  const char* name;
+  fs::path folder;
+  double square_m, rms_px, row_px;
+  std::size_t pairs;
+};
+
+std::vector<RealSet> real_sets() {
+  return {{"opencv-doc", "/usr/share/doc/opencv-doc/examples/data", 0.025, 0.3, 0.15, 13},
+          {"webcams", datasets() / "calib_sourishg_webcams" / "calib", 0.02423, 0.3, 0.25, 29},
+          {"StereoPi", datasets() / "rig_stereopi" / "calib", 0.025, 0.25, 0.12, 19}};
+}
+
+std::vector<PicturePair> pictures_of(const RealSet& set) {
+  PairInput input;
+  if (std::string(set.name) != "opencv-doc") {
+    input.folder = set.folder;
+    return read_pairs(input);
+  }
+  for (int i = 1; i <= 14; ++i) {
+    const std::string number = (i < 10 ? "0" : "") + std::to_string(i) + ".jpg";
+    if (!fs::exists(set.folder / ("left" + number))) continue;  // there is no 10
+    input.left.push_back(set.folder / ("left" + number));
+    input.right.push_back(set.folder / ("right" + number));
+  }
+  return read_pairs(input);
+}
+
+class SolveRealSet : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(SolveRealSet, IsAsGoodAsPromisedAndStaysSoWithAMovedBoard) {
+  const RealSet set = real_sets()[GetParam()];
+  if (!fs::exists(set.folder)) GTEST_SKIP() << set.folder << " is not here";
+  auto pictures = pictures_of(set);
+  ASSERT_EQ(pictures.size(), set.pairs);
+  const SolveOptions options{std::nullopt, set.square_m, LensChoice::kPinhole};
+  const SolveResult result = solve(pictures, options);
+  EXPECT_EQ(result.board.columns, 9);
+  EXPECT_EQ(result.board.rows, 6);
+  EXPECT_LE(result.calibration.quality.rms_px, set.rms_px);
+  EXPECT_LE(result.held_back.row_error_px, set.row_px);
+  EXPECT_GE(5 * result.count(PairFate::kHeldBack), static_cast<int>(pictures.size()));
+  EXPECT_EQ(result.count(PairFate::kLeftOut), 0);
+
+  pictures[4].right = copy_of(pictures[9].right);
+  const SolveResult moved = solve(pictures, options);
+  EXPECT_EQ(moved.pairs[4].fate, PairFate::kLeftOut);
+  EXPECT_NE(moved.pairs[4].reason.find("the board moved"), std::string::npos);
+  EXPECT_EQ(moved.count(PairFate::kLeftOut), 1);
+  const Calibration &a = result.calibration, &b = moved.calibration;
+  EXPECT_NEAR(b.left.camera.fx / a.left.camera.fx, 1, 0.05);
+  EXPECT_NEAR(b.right.camera.fx / a.right.camera.fx, 1, 0.05);
+  EXPECT_NEAR(b.baseline_m / a.baseline_m, 1, 0.05);
+  EXPECT_NEAR(b.quality.rms_px / a.quality.rms_px, 1, 0.25);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, SolveRealSet, testing::Range<std::size_t>(0, 3), [](const auto& set) {
+  return std::string(set.param == 0 ? "OpenCvDoc" : set.param == 1 ? "Webcams" : "StereoPi");
+});
+
+// The scenes of the rig, rectified by the daemon's own table.
+TEST(SolveReal, RowsOfTheStereoPiScenesAlign) {
+  const fs::path rig = datasets() / "rig_stereopi";
+  if (!fs::exists(rig)) GTEST_SKIP() << rig << " is not here";
+  const RealSet set = real_sets()[2];
+  const SolveResult result = solve(pictures_of(set), {std::nullopt, set.square_m, LensChoice::kPinhole});
+  PairInput input;
+  input.folder = rig / "scenes";
+  const auto scenes = read_pairs(input);
+  ASSERT_EQ(scenes.size(), 7U);
+  for (const PicturePair& scene : scenes) {
+    const auto rectified = [](const CameraCalibration& camera, const GreyImage& picture) {
+      const RectifyMap map(camera, {picture.size(), picture.view().stride(), 1});
+      GreyImage out(picture.size());
+      map.grey_rows(picture.row(0), {0, picture.height()}, out.view());
+      return out;
+    };
+    const GreyImage left = rectified(result.calibration.left, scene.left);
+    const GreyImage right = rectified(result.calibration.right, scene.right);
+    const auto found = misalignment(match_rows(left.view(), right.view()), left.size());
+    ASSERT_TRUE(found.has_value()) << scene.name;
+    // The table takes whole pixels, so a part of the image may be half a row off; the whole must not be.
+    EXPECT_LT(std::abs(found->row_offset_px), 0.3) << scene.name;
+    const auto smooth =
+        misalignment(match_rows(rectified_view(result.calibration.left, scene.left.view()).view(),
+                                rectified_view(result.calibration.right, scene.right.view()).view()),
+                     left.size());
+    ASSERT_TRUE(smooth.has_value()) << scene.name;
+    EXPECT_LT(smooth->row_error_px, 0.3) << scene.name;
+    // Without rectification they do not: the measurement does measure.
+    GreyImage shifted(right.size());
+    for (int y = 0; y < right.height(); ++y) {
+      std::copy_n(right.row(std::min(y + 2, right.height() - 1)), right.width(), shifted.row(y));
+    }
+    const auto off = misalignment(match_rows(left.view(), shifted.view()), left.size());
+    ASSERT_TRUE(off.has_value()) << scene.name;
+    EXPECT_NEAR(off->row_offset_px, 2, 0.3) << scene.name;
+  }
+}
+
+}  // namespace
+}  // namespace stereod

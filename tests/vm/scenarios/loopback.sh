@@ -1,0 +1,31 @@
+# shows: YUYV through v4l2loopback: rows byte-identical to stereo-match on the same pairs
+# seconds: 120
+. /share/guest/lib.sh
+# The module has two buffers unless told otherwise, and writes into the one that a reader still holds: enough of them, and
+# a rate at which none comes round again while it is being matched.
+modprobe v4l2loopback devices=2 video_nr=10,11 exclusive_caps=1,1 max_buffers=8
+udevadm settle
+mkdir pairs saved
+loopback-feed --left /dev/video10 --right /dev/video11 --pairs pairs --fps 2 &
+wait_for 20 test -e pairs/pair-7-right.pgm || fail "the feed has made no pairs"
+fps=10 start_stereod /dev/video10 /dev/video11 yuyv
+need_streaming 60
+stereo-tap save --frames 6 --out saved || fail "no frames were received"
+get_status
+cat status.txt
+stop_stereod
+
+declare -A pair_of
+for number in {0..7}; do
+  stereo-match --config stereod.yaml -o "pairs/$number.pfm" "pairs/pair-$number-left.pgm" "pairs/pair-$number-right.pgm"
+  pair_of[$(sha256sum <"pairs/$number.pfm")]=$number
+done
+[[ ${#pair_of[@]} -eq 8 ]] || fail "the eight pairs give only ${#pair_of[@]} different disparities"
+identical=
+for frame in saved/*.pfm; do
+  number=${pair_of[$(sha256sum <"$frame")]:-}
+  [[ -n $number ]] || fail "$frame is the disparity of none of the pairs"
+  identical+=" $number"
+done
+[[ $(tr ' ' '\n' <<<"$identical" | sort -u | wc -l) -gt 2 ]] || fail "always the same pair:$identical"
+shown "six frames received, byte for byte those of pairs$identical"
