@@ -95,13 +95,13 @@ std::vector<MatcherOptions> implementations_of(const MatcherOptions& options) {
 
 std::string describe(const MatcherOptions& o) {
   std::ostringstream text;
-  text << name_of(o.implementation) << "/" << name_of(o.isa) << "/" << name_of(o.cache) << " cost=" << name_of(o.cost)
-       << " min_disparity=" << o.min_disparity << " disparities=" << o.disparities << " window=" << o.window
-       << " prefilter=" << name_of(o.prefilter) << " prefilter_cap=" << o.prefilter_cap
-       << " subpixel=" << o.subpixel << " texture_threshold=" << o.texture_threshold
-       << " uniqueness_ratio=" << o.uniqueness_ratio << " left_right_max_diff=" << o.left_right_max_diff
-       << " median=" << o.median << " speckle_size=" << o.speckle_size
-       << " speckle_max_diff=" << o.speckle_max_diff;
+  text << name_of(o.implementation) << "/" << name_of(o.isa) << "/" << name_of(o.cache)
+       << " cost=" << name_of(o.cost) << " min_disparity=" << o.min_disparity
+       << " disparities=" << o.disparities << " window=" << o.window << " prefilter=" << name_of(o.prefilter)
+       << " prefilter_cap=" << o.prefilter_cap << " subpixel=" << o.subpixel
+       << " texture_threshold=" << o.texture_threshold << " uniqueness_ratio=" << o.uniqueness_ratio
+       << " left_right_max_diff=" << o.left_right_max_diff << " median=" << o.median
+       << " speckle_size=" << o.speckle_size << " speckle_max_diff=" << o.speckle_max_diff;
   return text.str();
 }
 
