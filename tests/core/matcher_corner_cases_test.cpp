@@ -261,5 +261,21 @@ TEST(MatcherCorners, AutomaticChoiceIsAmongTheInstructionSetsThatRun) {
   EXPECT_NE(std::find(isas.begin(), isas.end(), Isa::kScalar), isas.end());
 }
 
+// At 640×480 with 64 disparities a worker's memory fits in a second-level cache of 1 MiB, or in half of one
+// that is shared by two with the small mode.
+TEST(MatcherCorners, ScratchMemoryIsSmall) {
+  constexpr std::size_t kMiB = 1024 * 1024;
+  for (const char* preset : {"thesis", "fast", "robust"}) {
+    MatcherOptions options = *matcher_preset(preset);
+    options.cache = CacheUse::kLarge;
+    const std::size_t large = make_band_matcher(options, {640, 480})->scratch_bytes();
+    options.cache = CacheUse::kSmall;
+    const std::size_t small = make_band_matcher(options, {640, 480})->scratch_bytes();
+    EXPECT_LT(large, kMiB) << preset;
+    EXPECT_LT(small, kMiB / 2) << preset;
+    RecordProperty(preset, std::to_string(large) + " and " + std::to_string(small) + " bytes");
+  }
+}
+
 }  // namespace
 }  // namespace stereod
