@@ -39,7 +39,6 @@ struct Shape {
   int uniqueness_ratio;  ///< %; 0: Winners::ambiguous is not wanted
   int columns() const { return width - min_disparity; }
   int padded_disparities() const { return chunk * chunks; }
-  bool padded() const { return padded_disparities() > disparities; }
   /// Bytes of a right row as Kernel::prepare_right_row writes it.
   int right_row_bytes() const { return 2 * (width + padded_disparities()) + kRowMargin; }
 };
