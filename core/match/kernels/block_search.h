@@ -89,7 +89,8 @@ class BlockSearch {
     const int chunk_end = (chunk + 1) * kChunk;
     const bool padded = chunk_end > shape.disparities;
     const int last = padded ? shape.disparities : chunk_end;
-    if (block.first - shape.window + 2 < last) return sweep<true, true, true>;
+    if (block.first - shape.window + 2 < last)
+      return keep ? sweep<true, true, true> : sweep<true, true, false>;
     if (padded) return keep ? sweep<false, true, true> : sweep<false, true, false>;
     return keep ? sweep<false, false, true> : sweep<false, false, false>;
   }
