@@ -33,7 +33,7 @@ run_scenario() {
   model=${cpu:-$(head_of "$name" cpu)}
   rm -rf "$share"
   mkdir -p "$share/bin"
-  cp -r "$here/guest" "$share"
+  cp -r "$here/guest" systemd etc "$share"
   cp "$here/scenarios/$name.sh" "$share/scenario.sh"
   for program in "${programs[@]}"; do cp "$bin/$program" "$share/bin"; done
   echo "${seconds:-120}" >"$share/seconds"
