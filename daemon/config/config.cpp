@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <sstream>
 #include <thread>
 
@@ -11,6 +12,7 @@
 namespace stereod {
 namespace {
 
+constexpr int kMostCpus = 1024;             // of the C library's sets of CPUs
 constexpr std::size_t kLongestPrefix = 40;  // LCM's channel names have at most 63 characters
 
 std::optional<SourceKind> parse_source_kind(std::string_view name) {
@@ -96,6 +98,33 @@ void read_matcher(YamlSection section, MatcherOptions& options) {
   }
 }
 
+// "0,2-3" as 0, 2, 3; nothing if it is no such list.
+std::optional<std::vector<int>> parse_cpus(std::string_view text) {
+  std::vector<int> cpus;
+  std::istringstream parts{std::string(text)};
+  for (std::string part; std::getline(parts, part, ',');) {
+    int first = 0, last = 0, length = 0;
+    const auto whole = [&] { return static_cast<std::size_t>(length) == part.size(); };
+    if (part.empty() || part.find_first_not_of("0123456789-") != part.npos || part.size() > 9)
+      return std::nullopt;
+    if (std::sscanf(part.c_str(), "%d%n", &first, &length) == 1 && whole()) {
+      last = first;
+    } else if (std::sscanf(part.c_str(), "%d-%d%n", &first, &last, &length) != 2 || !whole()) {
+      return std::nullopt;
+    }
+    if (first < 0 || last < first || last >= kMostCpus) return std::nullopt;
+    for (int cpu = first; cpu <= last; ++cpu) cpus.push_back(cpu);
+  }
+  return cpus;
+}
+
+void read_scheduling(YamlSection section, SchedulingConfig& scheduling) {
+  scheduling.priority = section.integer("priority", scheduling.priority, 0, 99);
+  scheduling.cpus = section.choice<std::vector<int>>(
+      "cpus", scheduling.cpus, "lists of CPUs by number from 0 to 1023, such as 2-3 or 0,2-3", parse_cpus);
+  section.finish();
+}
+
 void read_lcm(YamlSection section, LcmConfig& lcm) {
   lcm.url = section.text("url", lcm.url);
   lcm.prefix = section.text("prefix", lcm.prefix);
@@ -176,6 +205,7 @@ Config read_config(const std::filesystem::path& file) {
   config.calibration = root.file_name("calibration");
   read_matcher(root.section("matcher"), config.matcher);
   config.workers = root.integer("workers", config.workers, 0, 64);
+  read_scheduling(root.section("scheduling"), config.scheduling);
   read_lcm(root.section("lcm"), config.lcm);
   config.log_level = read_log_level(root.section("log"), config.log_level);
   root.finish();

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/match/matcher_options.h"
 
@@ -74,11 +75,18 @@ struct LcmConfig {
   double raw_images_per_second = 2;
 };
 
+/// How the kernel is to run the threads that match.
+struct SchedulingConfig {
+  int priority = 0;       ///< SCHED_FIFO's, 1…99; 0: as other programs
+  std::vector<int> cpus;  ///< on which they may run; empty: on all
+};
+
 struct Config {
   CamerasConfig cameras;
   std::filesystem::path calibration;  ///< empty: the synthetic scene's own, or none
   MatcherOptions matcher = *matcher_preset("robust");
   int workers = 0;  ///< 0: one for each core
+  SchedulingConfig scheduling;
   LcmConfig lcm;
   std::string log_level = "info";
 

@@ -6,6 +6,7 @@
 
 #include "core/match/isa.h"
 #include "daemon/pipeline/clocks.h"
+#include "daemon/pipeline/worker_scheduling.h"
 
 namespace stereod {
 namespace {
@@ -119,7 +120,16 @@ PipelineFigures Pipeline::take_figures() {
   return figures;
 }
 
+std::string Pipeline::scheduling_problem() const {
+  const std::lock_guard lock(scheduling_mutex_);
+  return scheduling_problem_;
+}
+
 void Pipeline::matching_thread() noexcept {
+  {
+    const std::lock_guard lock(scheduling_mutex_);
+    scheduling_problem_ = schedule_workers(pool_, config_.scheduling);
+  }
   while (OutputFrame* output = publisher_.wait_free()) {
     std::optional<LeasedPair> pair = cameras_->desk().wait_pair(retiring_);
     if (!pair || stopping_) break;

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -69,6 +70,8 @@ class Pipeline {
   const Config& config() const { return config_; }
   /// For people: "block simd avx2, 2 workers".
   const std::string& matcher_description() const { return matcher_description_; }
+  /// What of `scheduling` the system refused, as a sentence; empty if nothing, or not known yet. Any thread.
+  std::string scheduling_problem() const;
 
  private:
   void start();
@@ -91,6 +94,8 @@ class Pipeline {
   std::optional<RawPublisher> raw_publisher_;
   std::optional<RectifyMap> left_map_, right_map_;
   std::optional<ValidityMask> left_mask_, right_mask_;  // of the maps
+  mutable std::mutex scheduling_mutex_;
+  std::string scheduling_problem_;
   std::int64_t next_frame_ = 0;
   std::int64_t frames_before_ = 0,
                refused_before_ = 0;  // published by, and refused to, those taken over from

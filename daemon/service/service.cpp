@@ -55,7 +55,17 @@ void Service::tick() {
   report();
 }
 
+// What is added to every status.
+void Service::remark() {
+  const std::string problem = pipeline_->scheduling_problem();
+  if (problem != scheduling_problem_ && !problem.empty()) spdlog::warn("{}", problem);
+  scheduling_problem_ = problem;
+  const bool both = !reload_problem_.empty() && !problem.empty();
+  reporter_->set_remark(reload_problem_ + (both ? "; " : "") + problem);
+}
+
 void Service::report() {
+  remark();
   const status_t& status = reporter_->report();
   manager_.status(status_line(status));
   if (status.state == "waiting_for_cameras") manager_.ready();
@@ -69,11 +79,10 @@ void Service::reload() {
   manager_.reloading();
   try {
     adopt(read_config(file_));
-    reporter_->set_remark("");
+    reload_problem_.clear();
   } catch (const std::exception& error) {
-    const std::string remark = std::string("the configuration was not taken over: ") + error.what();
-    spdlog::error("{}; everything stays as it was", remark);
-    reporter_->set_remark(remark);
+    reload_problem_ = std::string("the configuration was not taken over: ") + error.what();
+    spdlog::error("{}; everything stays as it was", reload_problem_);
   }
   manager_.reloaded();
 }

@@ -44,6 +44,7 @@ class Service {
  private:
   void adopt(const Config& config);
   void report();
+  void remark();
 
   const std::filesystem::path file_;
   const OpenBus open_bus_;
@@ -52,6 +53,7 @@ class Service {
   std::unique_ptr<MessageBus> bus_;
   std::unique_ptr<Pipeline> pipeline_;
   std::unique_ptr<StatusReporter> reporter_;
+  std::string reload_problem_, scheduling_problem_;  // what is wrong; empty if nothing
   std::int64_t next_report_ns_ = 0;
   std::int64_t published_when_alive_ = 0;
 };

@@ -69,6 +69,7 @@ matcher:
   isa: scalar
   cache: small
 workers: 3
+scheduling: {priority: 10, cpus: "0,2-4"}
 lcm: {url: "memq://", prefix: FRONT, rows_per_message: 8, spread: 0.5}
 log: {level: debug}
 )");
@@ -96,6 +97,8 @@ log: {level: debug}
   EXPECT_EQ(config.matcher.isa, Isa::kScalar);
   EXPECT_EQ(config.matcher.cache, CacheUse::kSmall);
   EXPECT_EQ(config.worker_count(), 3);
+  EXPECT_EQ(config.scheduling.priority, 10);
+  EXPECT_EQ(config.scheduling.cpus, (std::vector<int>{0, 2, 3, 4}));
   EXPECT_EQ(config.lcm.url, "memq://");
   EXPECT_EQ(config.lcm.prefix, "FRONT");
   EXPECT_EQ(config.lcm.rows_per_message, 8);
@@ -192,6 +195,14 @@ INSTANTIATE_TEST_SUITE_P(
                   "stereod.yaml:2: matcher: found '7', allowed is a map of keys and values"},
         BadConfig{"cameras: {source: synthetic}\nworkers: 3\nworkers: 4\n",
                   "stereod.yaml:3: workers: stands here a second time; keep one of them"},
+        BadConfig{"cameras: {source: synthetic}\nscheduling:\n  priority: 100\n",
+                  "stereod.yaml:3: scheduling.priority: found '100', allowed are whole numbers from 0 to 99"},
+        BadConfig{
+            "cameras: {source: synthetic}\nscheduling:\n  cpus: 3-2\n",
+            "stereod.yaml:3: scheduling.cpus: found '3-2', allowed are lists of CPUs by number from 0 to "
+            "1023, such as 2-3 or 0,2-3"},
+        BadConfig{"cameras: {source: synthetic}\nscheduling:\n  cpus: two\n",
+                  "stereod.yaml:3: scheduling.cpus: found 'two', allowed are lists of CPUs"},
         BadConfig{
             "cameras: {source: synthetic}\nlcm:\n  prefix: 'A B'\n",
             "stereod.yaml:3: lcm.prefix: found 'A B', allowed are 1 to 40 letters, digits, '_', '-' and '.'"},
@@ -288,6 +299,8 @@ TEST_F(ConfigFile, TheShippedFileSaysTheDefaults) {
   EXPECT_EQ(shipped.lcm.rows_per_message, defaults.lcm.rows_per_message);
   EXPECT_EQ(shipped.lcm.spread, defaults.lcm.spread);
   EXPECT_EQ(shipped.workers, defaults.workers);
+  EXPECT_EQ(shipped.scheduling.priority, defaults.scheduling.priority);
+  EXPECT_TRUE(shipped.scheduling.cpus.empty());
   EXPECT_EQ(shipped.log_level, defaults.log_level);
 }
 
