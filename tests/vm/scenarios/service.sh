@@ -28,17 +28,17 @@ write_config() {
 cameras:
   source: v4l2
   fps: 15
-  v4l2: {left: "$(by_path 0)", right: "$(by_path 1)", format: mjpeg, align: never ${4:-}}
-matcher: {preset: fast, disparities: $3, min_disparity: 8}
+  v4l2: {left: "$(by_path 0)", right: "$(by_path 1)", width: 320, height: 240, format: mjpeg, align: never ${4:-}}
+matcher: {preset: fast, disparities: $3, min_disparity: 8, window: 5, prefilter: none, median: 0}
 lcm: {prefix: $2, rows_per_message: 48, spread: 0.2}
 CONFIG
 }
 
 property() { systemctl show --property "$1" --value "${2:-stereod.service}"; }
-status_says() { [[ $(property StatusText) =~ $1 ]]; }
+status_says() { text=$(property StatusText) && [[ $text =~ $1 ]]; }
 need_status() {
-  wait_for "$1" status_says "$2" || { systemctl status stereod; journalctl -u stereod -o cat; fail "the status should say '$2'"; }
-  echo "status: $(property StatusText)"
+  wait_for "$1" status_says "$2" || { systemctl status stereod; fail "the status should say '$2'"; }
+  echo "status: $text"
 }
 restarted() { [[ $(property NRestarts) -ge $1 ]]; }
 not_restarted() { [[ $(property NRestarts) -eq ${1:-0} ]] || fail "it was restarted"; }
@@ -48,11 +48,20 @@ control_is() { v4l2-ctl --device="$1" --get-ctrl="$2" | grep -q ": $3"; }
 journal_says() { journalctl -u stereod -o cat | grep -qE "$1"; }
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
 
+show_journal() {
+  echo "=== the journal"
+  journalctl -u stereod -u stereod@front -u stereod-multicast -o short-monotonic
+}
+trap show_journal EXIT
+
 start_cameras
 echo "=== install"
 ip route del 224.0.0.0/4 dev lo  # the service has its own
 install_stereod
 [[ $(sysctl -n net.core.rmem_max) -eq 4194304 ]] || fail "net.core.rmem_max was not raised"
+for serial in $left_serial $right_serial; do
+  v4l2-ctl --device="$(by_id "$serial")" --set-ctrl=power_line_frequency=2
+done
 udevadm trigger --action=add --subsystem-match=video4linux --settle
 for serial in $left_serial $right_serial; do
   node=$(readlink -f "$(by_id "$serial")")
@@ -63,7 +72,7 @@ write_config stereod STEREO 8
 
 echo "=== start"
 begun=$(now_ms)
-systemctl start stereod || { journalctl -u stereod -o cat; fail "systemctl start stereod"; }
+systemctl start stereod || fail "systemctl start stereod"
 shown "systemctl start came back ready after $(($(now_ms) - begun)) ms"
 ip route show 224.0.0.0/4 | tee routes.txt
 grep -q 'dev lo .*metric 4096' routes.txt || fail "stereod-multicast.service made no route"
@@ -82,9 +91,9 @@ systemctl reload stereod
 wait_for 20 journal_says "the configuration was read again: .*; the cameras went on" ||
   fail "the configuration was not read again"
 need_status 30 "$streams"
-write_config stereod STEREO 12 ', controls: {brightness: 99}'
+write_config stereod STEREO 12 ', controls: {brightness: 40}'
 systemctl reload stereod
-wait_for 20 control_is "$(by_path 0)" brightness 99 || fail "brightness was not set while it streams"
+wait_for 20 control_is "$(by_path 0)" brightness 40 || fail "brightness was not set while it streams"
 cp /etc/stereod/stereod.yaml good.yaml
 echo 'matchr: {}' >>/etc/stereod/stereod.yaml
 systemctl reload stereod
@@ -112,7 +121,7 @@ need_status 90 "$streams"
 echo "=== another pair of settings beside it"
 systemctl stop stereod
 write_config front FRONT 8
-systemctl start stereod@front || { journalctl -u stereod@front -o cat; fail "systemctl start stereod@front"; }
+systemctl start stereod@front || fail "systemctl start stereod@front"
 stereo-tap check --prefix FRONT --seconds 5 || true
 begun=$(now_ms)
 systemctl stop stereod@front
@@ -127,8 +136,7 @@ sleep 4
 [[ $(property ActiveState) == failed ]] || fail "systemd tries again: $(property ActiveState)"
 systemctl --no-pager status stereod || true
 
-echo "=== the journal"
-journalctl -u stereod -u stereod@front -u stereod-multicast -o short-monotonic
+echo "=== the end"
 systemctl stop stereod-multicast
 ip route show 224.0.0.0/4 | grep . && fail "the route stayed"
 for sentence in 'the left camera is absent|the left camera is lost' 'the left camera streams again' 'Watchdog timeout' \
