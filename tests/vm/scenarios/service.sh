@@ -27,9 +27,10 @@ write_config() {
   cat >"/etc/stereod/$1.yaml" <<CONFIG
 cameras:
   source: v4l2
-  fps: 15
+  fps: 10
   v4l2: {left: "$(by_path 0)", right: "$(by_path 1)", width: 320, height: 240, format: mjpeg, align: never ${4:-}}
 matcher: {preset: fast, disparities: $3, min_disparity: 8, window: 5, prefilter: none, median: 0}
+workers: 1
 lcm: {prefix: $2, rows_per_message: 48, spread: 0.2}
 CONFIG
 }
@@ -87,19 +88,19 @@ shown "rows received by another process: $rows; resident memory $(awk '/^VmRSS:/
 
 echo "=== reload"
 write_config stereod STEREO 12
-systemctl reload stereod
+systemctl reload stereod || fail "systemctl reload"
 wait_for 20 journal_says "the configuration was read again: .*; the cameras went on" ||
   fail "the configuration was not read again"
 need_status 30 "$streams"
 write_config stereod STEREO 12 ', controls: {brightness: 40}'
-systemctl reload stereod
+systemctl reload stereod || fail "systemctl reload"
 wait_for 20 control_is "$(by_path 0)" brightness 40 || fail "brightness was not set while it streams"
 cp /etc/stereod/stereod.yaml good.yaml
 echo 'matchr: {}' >>/etc/stereod/stereod.yaml
-systemctl reload stereod
+systemctl reload stereod || fail "systemctl reload"
 need_status 30 "matchr: is not a known key; the nearest known key is 'matcher'"
 cp good.yaml /etc/stereod/stereod.yaml
-systemctl reload stereod
+systemctl reload stereod || fail "systemctl reload"
 need_status 30 "$streams[^;]*(; no calibration is configured.*)?\$"
 [[ $(property MainPID) -eq $pid ]] || fail "it was started anew"
 shown "after four reloads the same process, $(property StatusText)"
