@@ -124,10 +124,11 @@ systemctl stop stereod
 write_config front FRONT 8
 systemctl start stereod@front || fail "systemctl start stereod@front"
 stereo-tap check --prefix FRONT --seconds 5 || true
-begun=$(now_ms)
 systemctl stop stereod@front
 [[ $(property Result stereod@front) == success ]] || fail "it did not stop by itself"
-shown "stopped within $(($(now_ms) - begun)) ms"
+# By systemd's own clock: the tool that asked for it takes its time on an emulated processor.
+begun=$(property ActiveExitTimestampMonotonic stereod@front)
+shown "stopped within $((($(property InactiveEnterTimestampMonotonic stereod@front) - begun) / 1000)) ms"
 
 echo "=== real time"
 write_config stereod STEREO 8
