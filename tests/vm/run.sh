@@ -28,12 +28,16 @@ head_of() { sed -n "s/^# $2: *//p" "$here/scenarios/$1.sh" | head -n 1; }
 
 # Boots a machine for one scenario; succeeds if the scenario did. Its log is in $logs/SCENARIO.
 run_scenario() {
-  local name=$1 share=$logs/$1 seconds model
+  local name=$1 share=$logs/$1 seconds model package
   seconds=$(head_of "$name" seconds)
   model=${cpu:-$(head_of "$name" cpu)}
   rm -rf "$share"
   mkdir -p "$share/bin"
   cp -r "$here/guest" systemd etc "$share"
+  # A package that cpack made of these very programs, for scenarios that install it.
+  for package in "$bin"/../stereod_*.deb; do
+    if [[ $package -nt $bin/stereod ]]; then cp "$package" "$share"; fi
+  done
   cp "$here/scenarios/$name.sh" "$share/scenario.sh"
   for program in "${programs[@]}"; do cp "$bin/$program" "$share/bin"; done
   echo "${seconds:-120}" >"$share/seconds"
