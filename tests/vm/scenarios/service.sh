@@ -125,10 +125,11 @@ write_config front FRONT 8
 systemctl start stereod@front || fail "systemctl start stereod@front"
 stereo-tap check --prefix FRONT --seconds 5 || true
 systemctl stop stereod@front
-[[ $(property Result stereod@front) == success ]] || fail "it did not stop by itself"
-# By systemd's own clock: the tool that asked for it takes its time on an emulated processor.
-begun=$(property ActiveExitTimestampMonotonic stereod@front)
-shown "stopped within $((($(property InactiveEnterTimestampMonotonic stereod@front) - begun) / 1000)) ms"
+# By systemd's own words: the tool that asked for it takes its time on an emulated processor. A template's unit is
+# forgotten once it has stopped, so its properties say nothing.
+took=$(journalctl -u stereod@front -o short-unix | awk '/Stopping/ { begun = $1 } /Deactivated successfully/ { ended = $1 }
+  END { if (ended < begun || !begun) exit 1; printf "%d", (ended - begun) * 1000 }') || fail "it did not stop by itself"
+shown "stopped within $took ms"
 
 echo "=== real time"
 write_config stereod STEREO 8
