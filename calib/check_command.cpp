@@ -11,10 +11,10 @@
 #include "calib/depth_error.h"
 #include "calib/errors.h"
 #include "calib/html.h"
-#include "calib/misalignment.h"
 #include "calib/pair_input.h"
 #include "calib/progress.h"
 #include "calib/rectified_view.h"
+#include "calib/row_matches.h"
 #include "calib/verdict.h"
 #include "daemon/config/calibration_file.h"
 

@@ -3,8 +3,10 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
+#include "core/stereo_rectification.h"
 #include "daemon/capture/replay_source.h"
 #include "daemon/capture/synthetic_source.h"
 #include "daemon/config/calibration_file.h"
@@ -80,6 +82,13 @@ Rig open_rig(const Config& config) {
     throw FileError(config.calibration.string() + ": the calibration is for images of " +
                     in_words(rig.calibration->image) + ", the cameras give " + in_words(size) +
                     "; calibrate at that size or set the cameras to the calibration's");
+  }
+  if (rig.calibration && config.rectify.zoom) {
+    try {
+      rig.calibration = zoomed(*rig.calibration, *config.rectify.zoom);
+    } catch (const std::invalid_argument& refused) {
+      throw FileError(config.calibration.string() + ": " + refused.what());
+    }
   }
   return rig;
 }

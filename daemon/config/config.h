@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/match/matcher_options.h"
+#include "core/rectify_map.h"
 
 namespace stereod {
 
@@ -63,6 +65,11 @@ struct CamerasConfig {
   std::int64_t pairing_tolerance_ns() const;
 };
 
+struct RectifyConfig {
+  Interpolation interpolation = Interpolation::kNearest;
+  std::optional<double> zoom;  ///< see zoomed(); nothing: as the calibration has it
+};
+
 struct LcmConfig {
   std::string url;                ///< empty: LCM_DEFAULT_URL, or this machine only
   std::string prefix = "STEREO";  ///< of every channel
@@ -75,6 +82,7 @@ struct LcmConfig {
 struct Config {
   CamerasConfig cameras;
   std::filesystem::path calibration;  ///< empty: the synthetic scene's own, or none
+  RectifyConfig rectify;
   MatcherOptions matcher = *matcher_preset("robust");
   int workers = 0;  ///< 0: one for each core
   LcmConfig lcm;

@@ -49,7 +49,8 @@ Pipeline::Pipeline(const Config& config, Rig rig, MessageBus& bus)
       matcher_description_(describe(config)),
       publisher_(bus, wire_format(config), size_),
       desk_(config.cameras.pairing_tolerance_ns(), config.cameras.max_skew_ms == 0),
-      pool_(config.worker_count()) {
+      pool_(config.worker_count()),
+      alignment_monitor_(size_, config.matcher.min_disparity, config.matcher.disparities) {
   for (int worker = 0; worker < pool_.workers(); ++worker) workers_.emplace_back(config.matcher, size_);
   if (config.matcher.speckle_size > 0) speckle_filter_.emplace(size_);
   if (config.lcm.raw_images) {
@@ -78,7 +79,7 @@ PipelineFigures Pipeline::take_figures() {
     return CameraFigures{thread.report(), thread.frames(), thread.sequence_gaps(), thread.mean_brightness()};
   };
   PipelineFigures figures{camera(*left_thread_), camera(*right_thread_), desk_.counts(),
-                          publisher_.take_figures()};
+                          publisher_.take_figures(), alignment_monitor_.figures()};
   if (raw_publisher_) figures.published.messages_refused += raw_publisher_->refused();
   return figures;
 }
@@ -107,18 +108,24 @@ void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
   facts.filter_ns = 0;
   if (speckle_filter_) filter_frame(output);
   facts.matched_ns = monotonic_ns();
+  const std::int64_t match_ns = facts.matched_ns - facts.started_ns;
   publisher_.frame_final(output);
-  if (raw_publisher_) raw_publisher_->offer(pair);  // after what is urgent
+  // After what is urgent.
+  alignment_monitor_.frame_matched({*left_map_, *left_mask_, pair.left.frame().luma.data},
+                                   {*right_map_, *right_mask_, pair.right.frame().luma.data}, match_ns);
+  if (raw_publisher_) raw_publisher_->offer(pair);
 }
 
 // The tables are made when the first frame shows how its pixels lie in memory, and again if that ever
 // changes.
 void Pipeline::prepare_maps(const LeasedPair& pair) {
-  const auto prepare = [](std::optional<RectifyMap>& map, std::optional<ValidityMask>& mask,
-                          const FrameLease& lease, const CameraCalibration* camera) {
+  const Interpolation interpolation = config_.rectify.interpolation;
+  const auto prepare = [interpolation](std::optional<RectifyMap>& map, std::optional<ValidityMask>& mask,
+                                       const FrameLease& lease, const CameraCalibration* camera) {
     const SourceLayout layout = layout_of(lease.frame().luma);
     if (map && map->layout() == layout) return;
-    map.emplace(camera != nullptr ? RectifyMap(*camera, layout) : RectifyMap::identity(layout));
+    map.emplace(camera != nullptr ? RectifyMap(*camera, layout, interpolation)
+                                  : RectifyMap::identity(layout));
     mask.emplace(map->mask());
   };
   prepare(left_map_, left_mask_, pair.left, rig_.calibration ? &rig_.calibration->left : nullptr);

@@ -12,6 +12,7 @@
 #include "core/worker_pool.h"
 #include "daemon/capture/rig.h"
 #include "daemon/config/config.h"
+#include "daemon/pipeline/alignment_monitor.h"
 #include "daemon/pipeline/band_worker.h"
 #include "daemon/pipeline/capture_thread.h"
 #include "daemon/pipeline/frame_publisher.h"
@@ -33,6 +34,7 @@ struct PipelineFigures {
   CameraFigures left, right;
   PairingCounts pairing;
   PublisherFigures published;
+  AlignmentFigures alignment;
 };
 
 /// Throws what the constructor of Pipeline would for frames of this size: std::invalid_argument with a
@@ -81,6 +83,7 @@ class Pipeline {
   std::optional<RawPublisher> raw_publisher_;
   std::optional<RectifyMap> left_map_, right_map_;
   std::optional<ValidityMask> left_mask_, right_mask_;  // of the maps
+  AlignmentMonitor alignment_monitor_;
   std::int64_t next_frame_ = 0;
   std::atomic<bool> stopping_{false};
   std::atomic<bool> finished_{false};

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "daemon/pipeline/clocks.h"
@@ -34,6 +35,29 @@ std::int64_t patience_for(double fps) {
 
 }  // namespace
 
+std::string KnockDetector::judge(const AlignmentFigures& figures) {
+  constexpr double kApart_px = 1, kTogether_px = 0.7;
+  constexpr std::size_t kEnough = 60;
+  constexpr double kHardlyAny = 0.1, kMany = 0.5;
+  constexpr const char* kRemedy =
+      "; was a camera knocked? 'stereo-calibrate check' measures it, if so calibrate again";
+  if (figures.misalignment) {
+    apart_ = figures.misalignment->row_error_px > (apart_ ? kTogether_px : kApart_px);
+    if (apart_)
+      return std::string("rows of the rectified pictures do not lie side by side any more") + kRemedy;
+  }
+  if (figures.searched < kEnough) return {};
+  if (figures.misalignment && figures.found_share > kMany) was_found_ = true;
+  if (was_found_ && figures.found_share < kHardlyAny) {
+    return std::string(
+               "hardly anything of the left picture is found in the right one any more; is something before "
+               "a "
+               "lens or very near") +
+           kRemedy;
+  }
+  return {};
+}
+
 ServiceState judge_state(const Activity& activity, bool calibrated) {
   const std::string missing = missing_cameras(activity);
   if (!missing.empty()) return {"waiting_for_cameras", missing};
@@ -49,6 +73,7 @@ ServiceState judge_state(const Activity& activity, bool calibrated) {
   if (activity.refused) return {"degraded", "the network refused messages"};
   if (!calibrated)
     return {"uncalibrated", "no calibration is configured, so the images are matched unrectified"};
+  if (!activity.knocked.empty()) return {"degraded", activity.knocked};
   return {"streaming", ""};
 }
 
@@ -75,7 +100,8 @@ void StatusReporter::report() {
   const std::int64_t now_ns = monotonic_ns();
   const double seconds = std::max(1e-3, static_cast<double>(now_ns - before_ns_) * 1e-9);
   const double cpu_s = process_cpu_seconds();
-  const Activity activity = recent_activity(now, now_ns);
+  Activity activity = recent_activity(now, now_ns);
+  activity.knocked = knock_detector_.judge(now.alignment);
   const bool calibrated = pipeline_.rig().calibration.has_value();
   const ServiceState state = std::exchange(first_, false)
                                  ? ServiceState{"starting", "waiting for the first frames"}
@@ -85,6 +111,7 @@ void StatusReporter::report() {
     logged_ = state;
   }
 
+  const auto& misalignment = now.alignment.misalignment;
   status_.utime = wall_us();
   status_.state = state.name;
   status_.reason = state.reason;
@@ -92,6 +119,12 @@ void StatusReporter::report() {
   if (state.name == "waiting_for_cameras") {
     if (!activity.left_frames) add_reason(status_.reason, now.left.report);
     if (!activity.right_frames) add_reason(status_.reason, now.right.report);
+  }
+  if (!activity.knocked.empty() && state.reason == activity.knocked && misalignment) {
+    char figure[64];
+    std::snprintf(figure, sizeof figure, " (now %.1f px apart, by %zu points)", misalignment->row_error_px,
+                  misalignment->points);
+    status_.reason += figure;
   }
   status_.uptime_s = static_cast<double>(now_ns - started_ns_) * 1e-9;
   status_.fps_in = static_cast<double>(now.pairing.pairs - before_.pairing.pairs) / seconds;
@@ -109,6 +142,9 @@ void StatusReporter::report() {
   status_.latency_ms_p95 = now.published.latency_ms.percentile(0.95);
   status_.latency_ms_max = now.published.latency_ms.percentile(1);
   status_.match_ms_median = now.published.match_ms.percentile(0.5);
+  status_.row_error_px = misalignment ? misalignment->row_error_px : 0;
+  status_.row_error_points = misalignment ? static_cast<std::int32_t>(misalignment->points) : 0;
+  status_.row_check_percent = 100 * now.alignment.cost_share;
   status_.valid_fraction = now.published.valid_fraction;
   status_.cpu_percent = 100 * (cpu_s - before_cpu_s_) / seconds;
   status_.rss_mb = process_rss_mb();

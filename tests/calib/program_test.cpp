@@ -11,7 +11,6 @@
 #include "calib/board_finder.h"
 #include "calib/depth_error.h"
 #include "calib/exchange.h"
-#include "calib/misalignment.h"
 #include "calib/rectified_view.h"
 #include "calib/text_file.h"
 #include "core/depth.h"

@@ -8,9 +8,9 @@
 #include <filesystem>
 
 #include "calib/errors.h"
-#include "calib/misalignment.h"
 #include "calib/rectified_view.h"
 #include "calib/report.h"
+#include "calib/row_matches.h"
 #include "core/rectify_map.h"
 #include "tests/support/board_scene.h"
 
