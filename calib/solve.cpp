@@ -7,6 +7,7 @@
 
 #include "calib/board_search.h"
 #include "calib/errors.h"
+#include "calib/matched_boards.h"
 #include "calib/pair_consensus.h"
 #include "calib/progress.h"
 
@@ -70,11 +71,16 @@ class Solver {
     require_enough();
   }
 
+  // Which pairs are held back depends on their own places in the list, hardly on which others are good: so
+  // that one bad pair more or less does not make another calibration.
   void split() {
-    const Indices places = evenly_spread(held_back_count(good_.size()), good_.size());
-    for (std::size_t place = 0; place < good_.size(); ++place) {
-      const bool held = std::find(places.begin(), places.end(), place) != places.end();
-      (held ? held_back_ : used_).push_back(good_[place]);
+    const std::size_t wanted = held_back_count(good_.size());
+    Indices held;
+    for (const std::size_t i : spread_order(result_.pairs.size())) {
+      if (held.size() < wanted && std::find(good_.begin(), good_.end(), i) != good_.end()) held.push_back(i);
+    }
+    for (const std::size_t i : good_) {
+      (std::find(held.begin(), held.end(), i) != held.end() ? held_back_ : used_).push_back(i);
     }
   }
 
@@ -100,7 +106,7 @@ class Solver {
     if (median(errors) <= limit) drop(held_back_, errors, limit, moved_reason);
   }
 
-  void finish() {
+  void finish(const std::vector<PicturePair>& pictures) {
     try {
       result_.calibration = rectified_pair(cameras_.left, cameras_.right, cameras_.pose);
     } catch (const std::invalid_argument& refused) {
@@ -122,6 +128,10 @@ class Solver {
       result_.worst_row_error_px = std::max(result_.worst_row_error_px, one.row_error_px);
     }
     mean.disparity_error_px = std::sqrt(mean.disparity_error_px);
+    MatchedBoards matched(result_.calibration, result_.board);
+    for (const std::size_t i : held_back_) matched.add(pictures[i], pose_of(result_.pairs[i].corners));
+    constexpr std::size_t kEnough = 500;
+    if (matched.points() >= kEnough) result_.matched_error_px = matched.deviation_px();
     CalibrationQuality& quality = result_.calibration.quality;
     quality.pairs_used = static_cast<int>(used_.size());
     quality.rms_px = rms_px_;
@@ -270,7 +280,7 @@ SolveResult solve(const std::vector<PicturePair>& pictures, const SolveOptions& 
   solver.split();
   solver.refine();
   progress.step();
-  solver.finish();
+  solver.finish(pictures);
   progress.step();
   return result;
 }

@@ -132,7 +132,8 @@ MatchArguments checked(const Flags& flags) {
   if (flags.repeat) arguments.repeat = in_range(*flags.repeat, 1, 1'000'000, "--repeat");
   const int cpus = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 256);
   arguments.threads = in_range(flags.threads.value_or(cpus), 1, 256, "--threads");
-  const Config config = flags.config ? read_config(*flags.config) : Config{};
+  Config config;
+  if (flags.config) config = read_config(*flags.config);
   arguments.matcher = matcher_options(flags, config);
   arguments.rectify = rectify_options(flags, config);
   return arguments;

@@ -50,14 +50,13 @@ Calibration simple() {
 
 TEST(DepthError, GrowsWithTheSquareOfDepth) {
   const Calibration c = simple();
-  const DepthErrorSources none{0, 0};
+  const DepthErrorSources third{0.3, 0};
   // 0.3 px at 2 m: 4/50·0.3.
-  EXPECT_NEAR(expected_depth_error_m(c, none, 2), 0.024, 1e-12);
-  EXPECT_NEAR(expected_depth_error_m(c, none, 4), 0.096, 1e-12);
+  EXPECT_NEAR(expected_depth_error_m(c, third, 2), 0.024, 1e-12);
+  EXPECT_NEAR(expected_depth_error_m(c, third, 4), 0.096, 1e-12);
   // It is what depth really changes by for such a change of disparity.
-  EXPECT_NEAR(depth_m(c, disparity_at(c, 2) - kMatcherError_px) - 2, 0.024, 0.001);
-  EXPECT_NEAR(expected_depth_error_m(c, {0, 0.05}, 2), std::hypot(0.024, 0.1), 1e-12);
-  EXPECT_NEAR(expected_depth_error_m(c, {std::sqrt(3) * 0.3, 0}, 2), 0.048, 1e-12);
+  EXPECT_NEAR(depth_m(c, disparity_at(c, 2) - 0.3) - 2, 0.024, 0.001);
+  EXPECT_NEAR(expected_depth_error_m(c, {0.3, 0.05}, 2), std::hypot(0.024, 0.1), 1e-12);
 }
 
 QualityFigures fine() {
@@ -174,6 +173,16 @@ TEST(PairConsensus, HoldsBackAFifthEvenlySpread) {
   for (std::size_t pairs = 5; pairs < 60; ++pairs) EXPECT_GE(5 * held_back_count(pairs), pairs);
   EXPECT_THAT(evenly_spread(3, 13), ElementsAre(2U, 6U, 10U));
   EXPECT_THAT(evenly_spread(1, 5), ElementsAre(2U));
+  const std::vector<std::size_t> order = spread_order(40);
+  for (std::size_t number = 0; number < 40; ++number) {
+    EXPECT_EQ(std::count(order.begin(), order.end(), number), 1);
+  }
+  std::vector<std::size_t> held(order.begin(), order.begin() + 8);
+  std::sort(held.begin(), held.end());
+  for (std::size_t i = 1; i < held.size(); ++i) {
+    EXPECT_GE(held[i] - held[i - 1], 3U);
+    EXPECT_LE(held[i] - held[i - 1], 8U);
+  }
   EXPECT_EQ(median({3, 1, 2}), 2);
 }
 
