@@ -1,9 +1,7 @@
 #include "calib/pair_consensus.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace stereod {
 
@@ -51,19 +49,6 @@ std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t from) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < count; ++i) places.push_back((2 * i + 1) * from / (2 * count));
   return places;
-}
-
-std::vector<std::size_t> spread_order(std::size_t count) {
-  // By the fractional parts of multiples of the golden ratio, which never come close to each other.
-  constexpr double kGolden = 0.6180339887498949;
-  const auto part = [](std::size_t i) {
-    const double multiple = (static_cast<double>(i) + 1) * kGolden;
-    return multiple - std::floor(multiple);
-  };
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return part(a) < part(b); });
-  return order;
 }
 
 }  // namespace stereod

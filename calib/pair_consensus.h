@@ -26,9 +26,6 @@ double median(std::vector<double> values);
 /// `count` of `from` places, evenly spread; count ≤ from.
 std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t from);
 
-/// The numbers below `count` in an order of which every beginning is spread evenly over them.
-std::vector<std::size_t> spread_order(std::size_t count);
-
 /// How many of `pairs` are held back to check the calibration with: a fifth, rounded up.
 inline std::size_t held_back_count(std::size_t pairs) { return (pairs + 4) / 5; }
 

@@ -71,14 +71,26 @@ class Solver {
     require_enough();
   }
 
-  // Which pairs are held back depends on their own places in the list, hardly on which others are good: so
-  // that one bad pair more or less does not make another calibration.
+  // Those at evenly spread places of the list that was given, or the next good ones after them: so one bad
+  // pair more or less changes at most one of them.
   void split() {
-    const std::size_t wanted = held_back_count(good_.size());
+    const std::size_t all = result_.pairs.size();
     Indices held;
-    for (const std::size_t i : spread_order(result_.pairs.size())) {
-      if (held.size() < wanted && std::find(good_.begin(), good_.end(), i) != good_.end()) held.push_back(i);
+    const auto is_free = [&](std::size_t i) {
+      return std::find(good_.begin(), good_.end(), i) != good_.end() &&
+             std::find(held.begin(), held.end(), i) == held.end();
+    };
+    const Indices places = evenly_spread(held_back_count(all), all);
+    for (const std::size_t i : places) {
+      if (is_free(i)) held.push_back(i);
     }
+    for (const std::size_t place : places) {
+      if (held.size() >= held_back_count(good_.size())) break;
+      std::size_t i = place;
+      while (!is_free(i)) i = (i + 1) % all;
+      if (std::find(held.begin(), held.end(), place) == held.end()) held.push_back(i);
+    }
+    held.resize(std::min(held.size(), held_back_count(good_.size())));
     for (const std::size_t i : good_) {
       (std::find(held.begin(), held.end(), i) != held.end() ? held_back_ : used_).push_back(i);
     }
