@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <vector>
 
 #include "daemon/capture/synthetic_scene.h"
 #include "daemon/imagefile/read_image.h"
@@ -39,18 +41,25 @@ struct Side {
 };
 
 TEST(AlignmentMonitor, NoticesACameraThatIsKnockedAndThatItStandsRightAgain) {
-  const SyntheticScene scene({640, 480}, 4);
+  constexpr int kPictures = 4;
+  const SyntheticScene scene({640, 480}, kPictures);
   const Calibration& c = scene.calibration();
+  std::vector<GreyImage> lefts, rights;
+  for (int i = 0; i < kPictures; ++i) {
+    lefts.push_back(scene.render_left(i)), rights.push_back(scene.render_right(i));
+  }
   for (const Interpolation interpolation : {Interpolation::kNearest, Interpolation::kBilinear}) {
     AlignmentMonitor monitor(scene.size(), 0, 64);
     KnockDetector detector;
-    const GreyImage first = scene.render_left(0);
-    const Side left(first, &c.left, interpolation), right(first, &c.right, interpolation);
-    // By how many rows the right camera's pictures are lowered.
+    const Side left(lefts[0], &c.left, interpolation), right(rights[0], &c.right, interpolation);
+    // By how many rows the right camera's pictures are lowered. So many frames that earlier ones are
+    // forgotten.
     const auto play = [&](int rows) {
-      for (int frame = 0; frame < 400; ++frame) {  // more than the monitor remembers
-        const GreyImage l = scene.render_left(frame % 4), r = lowered(scene.render_right(frame % 4), rows);
-        monitor.frame_matched({left.map, left.mask, l.row(0)}, {right.map, right.mask, r.row(0)}, kLong_ns);
+      std::vector<GreyImage> lower;
+      for (const GreyImage& picture : rights) lower.push_back(lowered(picture, rows));
+      for (std::size_t frame = 0; frame < 1200; ++frame) {
+        monitor.frame_matched({left.map, left.mask, lefts[frame % kPictures].row(0)},
+                              {right.map, right.mask, lower[frame % kPictures].row(0)}, kLong_ns);
       }
       return monitor.figures();
     };
