@@ -10,7 +10,7 @@ namespace stereod {
 namespace {
 
 constexpr int kFewestColumns = 48, kFewestRows = 24;
-constexpr int kLeastTexture = 4;      // mean difference of neighbours in either direction, grey levels
+constexpr int kLeastTexture = 3;      // mean difference of neighbours in either direction, grey levels
 constexpr float kLeastDeviation = 2;  // of a strip's brightness; less is a covered lens
 constexpr std::uint32_t kNoCost = 0x7FFFFFFF;  // beyond the image
 constexpr float kLeastLikeness = 0.8F;         // correlation of the patch with what was found
@@ -31,6 +31,8 @@ RowProbe::RowProbe(Size image, int min_disparity, int disparities)
   if (image_.width < kFewestColumns || image_.height < kFewestRows) return;
   left_ = AlignedBuffer<std::uint8_t>(as_size(stride_ * kRows));
   right_ = AlignedBuffer<std::uint8_t>(as_size(stride_ * (kRows + 2 * reach_)));
+  rectified_ = AlignedBuffer<std::uint8_t>(as_size(3 * stride_));
+  sums_ = AlignedBuffer<std::uint16_t>(as_size(stride_));
   across_ = AlignedBuffer<std::uint16_t>(as_size(stride_));
   down_ = AlignedBuffer<std::uint16_t>(as_size(stride_));
   costs_ = AlignedBuffer<std::uint32_t>(as_size((2 * reach_ + 1) * disparities_));
@@ -42,9 +44,10 @@ RowProbe::Result RowProbe::probe(const ProbedFrame& left, const ProbedFrame& rig
   if (left_.size() == 0) return result;
   // Multiples of the golden ratio, as parts of a whole, cover every part of the image soon and evenly.
   constexpr std::uint32_t kGolden = 0x9E3779B9;
-  const auto tops = static_cast<std::uint64_t>(image_.height - kRows - 2 * reach_ + 1);
-  const int top = reach_ + static_cast<int>(turn_++ * kGolden * tops >> 32);
-  rectify_strips(left, right, top);
+  const auto tops = static_cast<std::uint64_t>(image_.height - kRows - 2 * reach_ - 1);
+  const int top = reach_ + 1 + static_cast<int>(turn_++ * kGolden * tops >> 32);
+  smooth_rows(left, {top, top + kRows}, left_.data());
+  smooth_rows(right, {top - reach_, top + kRows + reach_}, right_.data());
   measure_texture();
   const Tone from = tone_of(left_row(0), image_.width, stride_);
   const Tone to = tone_of(right_row(reach_), image_.width, stride_);
@@ -72,12 +75,26 @@ RowProbe::Result RowProbe::probe(const ProbedFrame& left, const ProbedFrame& rig
   return result;
 }
 
-void RowProbe::rectify_strips(const ProbedFrame& left, const ProbedFrame& right, int top) noexcept {
-  for (int row = 0; row < kRows; ++row) {
-    left.map.grey_row(left.source, top + row, left_.data() + row * stride_);
-  }
-  for (int row = 0; row < kRows + 2 * reach_; ++row) {
-    right.map.grey_row(right.source, top - reach_ + row, right_.data() + row * stride_);
+// Rectifies rows and smooths them by 1-2-1 both ways, so that it does not matter much to a comparison by
+// whole pixels that what is alike lies between them.
+void RowProbe::smooth_rows(const ProbedFrame& frame, RowRange rows, std::uint8_t* out) noexcept {
+  const int width = image_.width;
+  const auto ring = [&](int y) { return rectified_.data() + (y % 3) * stride_; };
+  frame.map.grey_row(frame.source, rows.first - 1, ring(rows.first - 1));
+  frame.map.grey_row(frame.source, rows.first, ring(rows.first));
+  for (int y = rows.first; y < rows.end; ++y, out += stride_) {
+    frame.map.grey_row(frame.source, y + 1, ring(y + 1));
+    const std::uint8_t* __restrict above = ring(y - 1);
+    const std::uint8_t* __restrict here = ring(y);
+    const std::uint8_t* __restrict below = ring(y + 1);
+    std::uint16_t* __restrict sums = sums_.data();
+    std::uint8_t* __restrict to = out;
+    for (int x = 0; x < width; ++x) sums[x] = static_cast<std::uint16_t>(above[x] + 2 * here[x] + below[x]);
+    to[0] = static_cast<std::uint8_t>(sums[0] / 4);
+    for (int x = 1; x + 1 < width; ++x) {
+      to[x] = static_cast<std::uint8_t>((sums[x - 1] + 2 * sums[x] + sums[x + 1] + 8) >> 4);
+    }
+    to[width - 1] = static_cast<std::uint8_t>(sums[width - 1] / 4);
   }
 }
 
@@ -176,7 +193,11 @@ bool RowProbe::search(int x, const Tone& from, const Tone& to, Place& best, bool
       rival = std::min(rival, costs[place]);
     }
   }
-  return 5 * least < 4 * rival;
+  // Strict, because wrong points do harm and missing ones do not: clearly alike, clearly better than anything
+  // else, and nothing else even half alike. Patterns that repeat themselves are left alone that way, also
+  // where a copy happens to lie on whole pixels and the thing itself between them.
+  const auto plain = static_cast<std::uint32_t>(contrast);
+  return 20 * least < 7 * plain && 5 * least < 4 * rival && 5 * rival > 3 * plain;
 }
 
 bool RowProbe::refine(int x, const Place& place, float& across, float& down) const noexcept {

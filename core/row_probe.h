@@ -52,7 +52,7 @@ class RowProbe {
     float mean, deviation;
   };
 
-  void rectify_strips(const ProbedFrame& left, const ProbedFrame& right, int top) noexcept;
+  void smooth_rows(const ProbedFrame& frame, RowRange rows, std::uint8_t* out) noexcept;
   static Tone tone_of(const std::uint8_t* rows, int width, std::ptrdiff_t stride) noexcept;
   void measure_texture() noexcept;
   int best_column(int first, int end) const noexcept;
@@ -67,6 +67,8 @@ class RowProbe {
   int reach_;                                   // rows up and down
   std::ptrdiff_t stride_;                       // of both strips
   std::uint32_t turn_ = 0;                      // how often it was asked
+  AlignedBuffer<std::uint8_t> rectified_;       // three rows
+  AlignedBuffer<std::uint16_t> sums_;           // a row
   AlignedBuffer<std::uint8_t> left_, right_;    // kRows, and kRows + 2·reach_ rows
   AlignedBuffer<std::uint16_t> across_, down_;  // sums over a column of the left strip of |differences|
   AlignedBuffer<std::uint32_t> costs_;          // [2·reach_ + 1][disparities_]

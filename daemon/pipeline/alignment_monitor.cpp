@@ -57,7 +57,8 @@ AlignmentFigures AlignmentMonitor::figures() const {
   std::vector<RowMatch> found;
   for (const Point& point : newest) {
     const double age_s = static_cast<double>(now - point.at_ns) * 1e-9;
-    if (age_s > kLongest_s || (age_s > kWindow_s && figures.searched >= kEnough)) break;
+    if (age_s > kLongest_s || (age_s > kWindow_s && (found.size() >= kEnough || figures.searched >= kMany)))
+      break;
     ++figures.searched;
     if (point.found) found.push_back(point.match);
   }

@@ -35,7 +35,8 @@ class AlignmentMonitor {
  private:
   static constexpr std::size_t kPoints = 1024;
   static constexpr double kWindow_s = 4, kLongest_s = 30;
-  static constexpr std::size_t kEnough = 60;  // points; with fewer in the window older ones are taken too
+  static constexpr std::size_t kEnough = 60;  // points found; with fewer in the window older ones count too,
+  static constexpr std::size_t kMany = 300;   // if so many were searched, not
 
   struct Point {
     std::int64_t at_ns;

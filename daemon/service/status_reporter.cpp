@@ -37,8 +37,8 @@ std::int64_t patience_for(double fps) {
 
 std::string KnockDetector::judge(const AlignmentFigures& figures) {
   constexpr double kApart_px = 1, kTogether_px = 0.7;
-  constexpr std::size_t kEnough = 60;
-  constexpr double kHardlyAny = 0.1, kMany = 0.5;
+  constexpr std::size_t kEnough = 100;
+  constexpr double kHardlyAny = 0.02;
   constexpr const char* kRemedy =
       "; was a camera knocked? 'stereo-calibrate check' measures it, if so calibrate again";
   if (figures.misalignment) {
@@ -46,9 +46,8 @@ std::string KnockDetector::judge(const AlignmentFigures& figures) {
     if (apart_)
       return std::string("rows of the rectified pictures do not lie side by side any more") + kRemedy;
   }
-  if (figures.searched < kEnough) return {};
-  if (figures.misalignment && figures.found_share > kMany) was_found_ = true;
-  if (was_found_ && figures.found_share < kHardlyAny) {
+  if (figures.misalignment) was_found_ = true;
+  if (was_found_ && figures.searched >= kEnough && figures.found_share < kHardlyAny) {
     return std::string(
                "hardly anything of the left picture is found in the right one any more; is something before "
                "a "

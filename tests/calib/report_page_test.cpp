@@ -33,7 +33,7 @@ constexpr const char* kLook = R"(<script>
     seen.push(`map ${map.getBoundingClientRect().width > 200 ? 'shown' : 'hidden'}, ${map.querySelectorAll('circle').length} corners;`);
   }
   for (const figure of document.querySelectorAll('.figure b')) seen.push(`figure ${figure.innerText.replace(/\s+/g, ' ')};`);
-  seen.push(`verdict ${document.querySelector('h1').innerText};`);
+  seen.push(`verdict ${document.querySelector('h1').textContent};`);
   seen.push(`${document.querySelectorAll('table.pairs tr').length - 1} pairs;`);
   seen.push(`${document.querySelectorAll('table.depth tr').length - 1} depths;`);
   seen.push(document.documentElement.scrollWidth <= window.innerWidth ? 'fits;' : 'overflows;');

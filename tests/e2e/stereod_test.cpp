@@ -233,7 +233,7 @@ TEST_F(StereodTest, AKnockedCameraIsNamedWithinSeconds) {
   }
   stereod.send(SIGTERM);
   const ProgramRun run = stereod.wait();
-  ASSERT_FALSE(before.empty());
+  ASSERT_FALSE(before.empty()) << run.err;
   for (const status_t& status : before) EXPECT_EQ(status.state, "streaming") << status.reason;
   EXPECT_GT(before.back().row_error_points, 0);
   EXPECT_LT(before.back().row_error_px, 0.5);
