@@ -97,8 +97,9 @@ TEST(RowProbe, ATurnedCameraIsNotEvenedOut) {
   draw(left, right, [](int x) { return 0.02 * (x - kSize.width / 2); });  // 3 px at either side
   const auto found = misalignment(probed(left, right).matches, kSize);
   ASSERT_TRUE(found.has_value());
-  EXPECT_NEAR(found->row_offset_px, 0, 0.5);
   EXPECT_GT(found->row_error_px, 1.2);
+  EXPECT_GT(found->row_error_px,
+            std::abs(found->row_offset_px) + 0.5);  // what is common to all does not show it
 }
 
 TEST(RowProbe, SaysThatNothingIsLikeIt) {
