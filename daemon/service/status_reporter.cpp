@@ -38,7 +38,7 @@ std::int64_t patience_for(double fps) {
 std::string KnockDetector::judge(const AlignmentFigures& figures) {
   constexpr double kApart_px = 1, kTogether_px = 0.7;
   constexpr std::size_t kEnough = 100;
-  constexpr double kHardlyAny = 0.02;
+  constexpr double kHardlyAny = 0.01;
   constexpr const char* kRemedy =
       "; was a camera knocked? 'stereo-calibrate check' measures it, if so calibrate again";
   if (figures.misalignment) {

