@@ -137,6 +137,19 @@ std::optional<Board> board_for(const Flags& flags, const std::vector<PicturePair
   }
 }
 
+Measured measure(const Flags& flags, const Calibration& calibration,
+                 const std::vector<PicturePair>& pictures) {
+  const auto board = board_for(flags, pictures);
+  if (!board) return without_board(calibration, pictures);
+  try {
+    return with_board(calibration, pictures, *board, flags.square);
+  } catch (const CalibrationError&) {
+    // What looked like one, somewhere in a scene, was none.
+    if (flags.board != "auto" || !flags.square.empty()) throw;
+    return without_board(calibration, pictures);
+  }
+}
+
 int run(const Flags& flags) {
   const Calibration calibration = read_calibration(flags.calibration);
   const std::vector<PicturePair> pictures = pairs_of(flags);
@@ -147,9 +160,7 @@ int run(const Flags& flags) {
         ", the calibration is for " + std::to_string(calibration.image.width) + "×" +
         std::to_string(calibration.image.height) + "; take pictures of that size, or calibrate at this one");
   }
-  const auto board = board_for(flags, pictures);
-  const Measured measured =
-      board ? with_board(calibration, pictures, *board, flags.square) : without_board(calibration, pictures);
+  const Measured measured = measure(flags, calibration, pictures);
 
   Grade grade = grade_of_row_error(measured.row_error_px);
   std::printf("row error: %.2f px (%s)\n", measured.row_error_px, measured.how.c_str());

@@ -118,16 +118,16 @@ TEST(Solve, ResolvesWhichEndOfTheBoardIsWhich) {
 TEST(Solve, LeavesOutAPairWhoseBoardMoved) {
   auto pictures = copy_of(known_pictures());
   const SolveResult before = solve(pictures, options_for(kBoard));
-  pictures[7].right = copy_of(pictures[12].right);
+  pictures[5].right = copy_of(pictures[12].right);
   const SolveResult after = solve(pictures, options_for(kBoard));
-  EXPECT_EQ(after.pairs[7].fate, PairFate::kLeftOut);
-  EXPECT_NE(after.pairs[7].reason.find("the board moved"), std::string::npos) << after.pairs[7].reason;
+  EXPECT_EQ(after.pairs[5].fate, PairFate::kLeftOut);
+  EXPECT_NE(after.pairs[5].reason.find("the board moved"), std::string::npos) << after.pairs[5].reason;
   EXPECT_EQ(after.count(PairFate::kLeftOut), 1);
   EXPECT_NEAR(after.calibration.left.camera.fx / before.calibration.left.camera.fx, 1, 0.003);
   EXPECT_NEAR(after.calibration.baseline_m / before.calibration.baseline_m, 1, 0.003);
   EXPECT_NEAR(after.calibration.quality.rms_px / before.calibration.quality.rms_px, 1, 0.05);
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    if (i == 7) continue;
+    if (i == 5) continue;
     EXPECT_EQ(after.pairs[i].fate, before.pairs[i].fate) << i;
   }
 }
@@ -251,6 +251,17 @@ std::vector<PicturePair> pictures_of(const RealSet& set) {
   return read_pairs(input);
 }
 
+// Over the pairs calibrated with, but for one: how well the others fit should not change where that one is
+// left out, although the whole does if it was the one that fitted worst.
+double rms_without(const SolveResult& result, std::size_t without) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    if (i == without || result.pairs[i].fate != PairFate::kUsed) continue;
+    sum += result.pairs[i].error_px * result.pairs[i].error_px, count += 1;
+  }
+  return std::sqrt(sum / count);
+}
+
 class SolveRealSet : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(SolveRealSet, IsAsGoodAsPromisedAndStaysSoWithAMovedBoard) {
@@ -276,8 +287,10 @@ TEST_P(SolveRealSet, IsAsGoodAsPromisedAndStaysSoWithAMovedBoard) {
   EXPECT_NEAR(b.left.camera.fx / a.left.camera.fx, 1, 0.05);
   EXPECT_NEAR(b.right.camera.fx / a.right.camera.fx, 1, 0.05);
   EXPECT_NEAR(b.baseline_m / a.baseline_m, 1, 0.05);
-  EXPECT_NEAR(b.quality.rms_px / a.quality.rms_px, 1, 0.05);
-  EXPECT_NEAR(moved.held_back.row_error_px / result.held_back.row_error_px, 1, 0.05);
+  EXPECT_NEAR(rms_without(moved, 4) / rms_without(result, 4), 1, 0.05);
+  // Of three pairs in the smallest set; a hundredth of a pixel is less than corners are found to.
+  EXPECT_NEAR(moved.held_back.row_error_px, result.held_back.row_error_px,
+              std::max(0.05 * result.held_back.row_error_px, 0.01));
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, SolveRealSet, testing::Range<std::size_t>(0, 3), [](const auto& set) {
@@ -323,9 +336,6 @@ TEST_F(StereoPiScenes, RowsAlign) {
       const GreyImage right = rectified(found_.right, scene.right, interpolation);
       const auto found = measured(left, right);
       ASSERT_TRUE(found.has_value()) << scene.name;
-      std::printf("%s, %s: %.3f px, common %.3f, worst part %.3f\n", scene.name.c_str(),
-                  std::string(name_of(interpolation)).c_str(), found->row_error_px, found->row_offset_px,
-                  found->worst_px);
       EXPECT_LT(std::abs(found->row_offset_px), 0.3) << scene.name;
       // The nearest pixel is up to half a row off, and a whole part of the image may be so to the same side.
       if (interpolation == Interpolation::kBilinear) {
@@ -358,8 +368,6 @@ TEST_F(StereoPiScenes, TheDaemonTakesNoneForAKnock) {
       }
       const AlignmentFigures figures = monitor.figures();
       EXPECT_EQ(detector.judge(figures), "") << scene.name;
-      std::printf("%s: %s\n", scene.name.c_str(),
-                  figures.misalignment ? std::to_string(figures.misalignment->row_error_px).c_str() : "-");
     }
   }
 }
