@@ -104,7 +104,8 @@ void measure(const Task& task, int rounds) {
   print_row(task.name,
             {ms(results.of("floats").best), ms(results.of("fixed").best), ms(results.of("ours").best),
              times(results.ratio("floats", "ours")), times(results.ratio("fixed", "ours")),
-             times(results.of("batch 1").best / results.of("batch 2").best), std::to_string(map.bytes() / 1000) + " kB"});
+             times(results.of("batch 1").best / results.of("batch 2").best),
+             std::to_string(map.bytes() / 1000) + " kB"});
   print_row("  wanted", {"", "", "", times(task.wanted_one), times(task.wanted_one), times(task.wanted_two),
                          "at most 1300 kB"});
   cv::Mat difference;
