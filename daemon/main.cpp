@@ -4,23 +4,20 @@
 #include <time.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <string>
-#include <utility>
 
-#include "core/match/isa.h"
 #include "daemon/capture/v4l2/camera_list.h"
 #include "daemon/config/config.h"
 #include "daemon/config/file_error.h"
 #include "daemon/pipeline/clocks.h"
-#include "daemon/pipeline/pipeline.h"
 #include "daemon/publish/lcm_bus.h"
-#include "daemon/publish/wire_limits.h"
+#include "daemon/service/checks.h"
 #include "daemon/service/log.h"
-#include "daemon/service/status_reporter.h"
+#include "daemon/service/service.h"
 #include "daemon/service/version.h"
 
 namespace stereod {
@@ -52,25 +49,18 @@ int wait_for_signal(const sigset_t& signals, std::int64_t until_ns) {
   return signal > 0 ? signal : 0;
 }
 
-void serve(Pipeline& pipeline, MessageBus& bus, const sigset_t& signals) {
-  constexpr std::int64_t kReportPeriod = 1'000'000'000;
+// Until a signal ends it or there is nothing left to play.
+void serve(Service& service, const sigset_t& signals) {
   constexpr std::int64_t kLook = 50'000'000;  // how soon the end of a recording is noticed
-  StatusReporter reporter(pipeline, bus);
-  std::int64_t next_report = monotonic_ns();
   while (true) {
-    const std::int64_t now = monotonic_ns();
-    if (now >= next_report) {
-      reporter.report();
-      next_report = std::max(next_report + kReportPeriod, now);
-    }
-    if (pipeline.finished()) {
-      reporter.report();
+    service.tick();
+    if (service.finished()) {
       spdlog::info("the recording has played to its end; stopping");
       return;
     }
-    const int signal = wait_for_signal(signals, std::min(next_report, now + kLook));
+    const int signal = wait_for_signal(signals, monotonic_ns() + kLook);
     if (signal == SIGHUP) {
-      spdlog::warn("SIGHUP came, but the configuration is only read at the start; restart to read it again");
+      service.reload();
     } else if (signal != 0) {
       spdlog::info("{} came; stopping", signal == SIGINT ? "SIGINT" : "SIGTERM");
       return;
@@ -78,40 +68,11 @@ void serve(Pipeline& pipeline, MessageBus& bus, const sigset_t& signals) {
   }
 }
 
-// Finds everything that can never work before it touches the network, which may only be late. Throws
-// FileError.
-Rig open_checked_rig(const Config& config, const std::filesystem::path& file) {
-  try {
-    url_to_publish(config.lcm.url);
-  } catch (const BusError& error) {
-    throw FileError(place_of(file, "lcm.url") + ": " + error.what());
-  }
-  try {
-    resolve_isa(config.matcher.isa);
-  } catch (const std::invalid_argument& error) {
-    throw FileError(place_of(file, "matcher.isa") + ": " + error.what());
-  }
-  Rig rig = open_rig(config);
-  try {
-    check_pipeline(config, rig.left->frame_size());
-  } catch (const std::invalid_argument& error) {
-    const Size size = rig.left->frame_size();
-    const bool too_large = std::max(size.width, size.height) > kLargestImageSide;
-    throw FileError(place_of(file, too_large ? "cameras" : "lcm.rows_per_message") + ": " + error.what());
-  }
-  return rig;
-}
-
 void run(const Config& config, const std::filesystem::path& file) {
   const sigset_t signals = blocked_stop_signals();
-  Rig rig = open_checked_rig(config, file);
-  const Size size = rig.left->frame_size();
-  LcmBus bus(config.lcm.url);
-  Pipeline pipeline(config, std::move(rig), bus);
-  spdlog::info("stereod {}: {} at {}×{}, matcher {}, channels {}_*", kVersion, name_of(config.cameras.source),
-               size.width, size.height, pipeline.matcher_description(), config.lcm.prefix);
-  serve(pipeline, bus, signals);
-  pipeline.stop();
+  Service service(config, file, [](const std::string& url) { return std::make_unique<LcmBus>(url); });
+  serve(service, signals);
+  service.stop();
 }
 
 int complain(const std::string& sentence, int status) {

@@ -38,7 +38,7 @@ Rig open_synthetic_rig(const CamerasConfig& cameras) {
   rig.left = std::move(pair.left);
   rig.right = std::move(pair.right);
   rig.left_name = rig.right_name = "synthetic scene";
-  rig.calibration = std::move(pair.calibration);
+  rig.scene_calibration = std::move(pair.calibration);
   return rig;
 }
 
@@ -72,15 +72,19 @@ Rig make_v4l2_rig(const CamerasConfig& cameras, std::unique_ptr<VideoSystem> sys
   return rig;
 }
 
+std::optional<Calibration> calibration_for(const Config& config, const Rig& rig) {
+  if (config.calibration.empty()) return rig.scene_calibration;
+  Calibration calibration = read_calibration(config.calibration);
+  const Size size = rig.left->frame_size();
+  if (calibration.image == size) return calibration;
+  throw FileError(config.calibration.string() + ": the calibration is for images of " +
+                  in_words(calibration.image) + ", the cameras give " + in_words(size) +
+                  "; calibrate at that size or set the cameras to the calibration's");
+}
+
 Rig open_rig(const Config& config) {
   Rig rig = open_uncalibrated(config.cameras);
-  if (!config.calibration.empty()) rig.calibration = read_calibration(config.calibration);
-  const Size size = rig.left->frame_size();
-  if (rig.calibration && rig.calibration->image != size) {
-    throw FileError(config.calibration.string() + ": the calibration is for images of " +
-                    in_words(rig.calibration->image) + ", the cameras give " + in_words(size) +
-                    "; calibrate at that size or set the cameras to the calibration's");
-  }
+  rig.calibration = calibration_for(config, rig);
   return rig;
 }
 

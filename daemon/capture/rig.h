@@ -18,8 +18,9 @@ struct Rig {
   std::unique_ptr<VideoSystem> video;   ///< what the cameras are read with, if they are real
   std::shared_ptr<CameraPair> cameras;  ///< what they know of each other, if they are real
   std::unique_ptr<FrameSource> left, right;
-  std::string left_name, right_name;       ///< for the status message
-  std::optional<Calibration> calibration;  ///< for images of the sources' size
+  std::string left_name, right_name;             ///< for the status message
+  std::optional<Calibration> scene_calibration;  ///< of a rendered scene's own cameras
+  std::optional<Calibration> calibration;        ///< calibration_for() them
 };
 
 /// Opens what the configuration asks for. Throws FileError (a picture or the calibration cannot be used, or
@@ -27,7 +28,11 @@ struct Rig {
 /// none need be there.
 Rig open_rig(const Config& config);
 
-/// The same for cameras of this system, for tests. `log` takes what they have to say.
+/// The calibration for these cameras: the configured file's, else the rendered scene's own, else none. Throws
+/// FileError as above.
+std::optional<Calibration> calibration_for(const Config& config, const Rig& rig);
+
+/// What open_rig() makes of cameras of this system, for tests. `log` takes what they have to say.
 Rig make_v4l2_rig(const CamerasConfig& cameras, std::unique_ptr<VideoSystem> system, const CameraLog& log);
 
 }  // namespace stereod

@@ -44,6 +44,7 @@ struct V4l2Config {
   AlignMode align = AlignMode::kStart;
   double target_skew_ms = 3;
   int align_tries = 8;
+  friend bool operator==(const V4l2Config&, const V4l2Config&) = default;
 };
 
 struct CamerasConfig {
@@ -61,6 +62,7 @@ struct CamerasConfig {
 
   /// The largest difference of capture times within a pair, ns.
   std::int64_t pairing_tolerance_ns() const;
+  friend bool operator==(const CamerasConfig&, const CamerasConfig&) = default;
 };
 
 struct LcmConfig {

@@ -105,6 +105,11 @@ void FramePublisher::stop() noexcept {
   if (thread_.joinable()) thread_.join();
 }
 
+std::int64_t FramePublisher::frames() const noexcept {
+  const std::lock_guard lock(mutex_);
+  return figures_.frames;
+}
+
 PublisherFigures FramePublisher::take_figures() noexcept {
   const std::lock_guard lock(mutex_);
   const PublisherFigures taken = figures_;

@@ -72,6 +72,8 @@ class FramePublisher {
   void stop() noexcept;
 
   PublisherFigures take_figures() noexcept;
+  /// Published since the start.
+  std::int64_t frames() const noexcept;
 
  private:
   struct Event {
@@ -93,7 +95,7 @@ class FramePublisher {
   const int blocks_;
   const std::string rows_channel_, frame_channel_;
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable frame_freed_, event_added_, all_sent_;
   OutputFrame frames_[kFrames];
   std::vector<OutputFrame*> free_;

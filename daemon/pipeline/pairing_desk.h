@@ -1,11 +1,13 @@
 // Where the capture threads' frames meet.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
 
 #include "core/pairing.h"
+#include "core/rectify_map.h"
 #include "daemon/capture/frame_source.h"
 
 namespace stereod {
@@ -36,8 +38,17 @@ class PairingDesk {
   /// No frame is taken any more.
   void close() noexcept;
 
-  /// The newest pair; waits for one. Nothing once the desk is closed and the last pair taken.
-  std::optional<LeasedPair> wait_pair() noexcept;
+  /// The newest pair; waits for one. Nothing once the desk is closed and the last pair taken, or once the
+  /// taker is called off: after `called_off` was set and wake_taker() called. A pair that lies here then
+  /// stays for the next taker.
+  std::optional<LeasedPair> wait_pair(const std::atomic<bool>& called_off) noexcept;
+  void wake_taker() noexcept;
+
+  /// Somebody waits for a pair and there is none.
+  bool taker_waits() const noexcept;
+
+  /// How the latest frame of a camera lay in memory; nothing before the first.
+  std::optional<SourceLayout> layout(Side side) const noexcept;
 
   /// Gives back every frame that still lies here.
   void clear() noexcept;
@@ -50,6 +61,8 @@ class PairingDesk {
   Pairing<FrameLease> pairing_;
   int cameras_finished_ = 0;
   bool closed_ = false;
+  bool taker_waits_ = false;
+  std::optional<SourceLayout> layout_[2];
   const bool half_frames_;
   std::int64_t frame_ns_[2] = {0, 0};
 };

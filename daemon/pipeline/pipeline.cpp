@@ -42,55 +42,91 @@ void check_pipeline(const Config& config, Size size) {
   make_band_matcher(config.matcher, size);
 }
 
+// The braces see to it that the calibration is copied before the rig is moved.
 Pipeline::Pipeline(const Config& config, Rig rig, MessageBus& bus)
+    : Pipeline{config, std::optional<Calibration>(rig.calibration),
+               std::make_shared<Cameras>(config.cameras, std::move(rig)), bus} {
+  cameras_->start();
+  start();
+}
+
+Pipeline::Pipeline(const Config& config, std::optional<Calibration> calibration,
+                   std::shared_ptr<Cameras> cameras, MessageBus& bus)
     : config_(config),
-      rig_(std::move(rig)),
-      size_(rig_.left->frame_size()),
+      cameras_(std::move(cameras)),
+      calibration_(std::move(calibration)),
+      size_(cameras_->rig().left->frame_size()),
       matcher_description_(describe(config)),
       publisher_(bus, wire_format(config), size_),
-      desk_(config.cameras.pairing_tolerance_ns(), config.cameras.max_skew_ms == 0),
       pool_(config.worker_count()) {
   for (int worker = 0; worker < pool_.workers(); ++worker) workers_.emplace_back(config.matcher, size_);
   if (config.matcher.speckle_size > 0) speckle_filter_.emplace(size_);
   if (config.lcm.raw_images) {
     raw_publisher_.emplace(bus, config.lcm.prefix, config.lcm.raw_images_per_second, size_);
   }
-  left_thread_.emplace(Side::kLeft, *rig_.left, desk_);
-  right_thread_.emplace(Side::kRight, *rig_.right, desk_);
-  matching_thread_ = std::thread([this] { matching_thread(); });
+  const auto left = cameras_->desk().layout(Side::kLeft);
+  const auto right = cameras_->desk().layout(Side::kRight);
+  if (left && right) prepare_maps(*left, *right);
 }
 
 Pipeline::~Pipeline() { stop(); }
 
+void Pipeline::start() {
+  started_ = true;
+  matching_thread_ = std::thread([this] { matching_thread(); });
+}
+
+void Pipeline::take_over(Pipeline& other) {
+  other.retire();
+  const PublisherFigures published = other.take_figures().published;
+  frames_before_ = published.frames;
+  refused_before_ = published.messages_refused;
+  next_frame_ = other.next_frame_;
+  if (cameras_ != other.cameras_) {
+    other.cameras_->stop();
+    cameras_->count_on_from(*other.cameras_);
+    other.cameras_.reset();  // which closes the devices
+    cameras_->start();
+  }
+  other.cameras_.reset();
+  start();
+}
+
+// Ends the frame it is at and sends it all; the cameras go on.
+void Pipeline::retire() noexcept {
+  retiring_ = true;
+  cameras_->desk().wake_taker();
+  if (matching_thread_.joinable()) matching_thread_.join();
+  started_ = false;
+}
+
 void Pipeline::stop() noexcept {
   stopping_ = true;
-  left_thread_->stop();
-  right_thread_->stop();
-  desk_.close();
+  if (started_) cameras_->stop();
   publisher_.stop();
   if (raw_publisher_) raw_publisher_->stop();
   if (matching_thread_.joinable()) matching_thread_.join();
-  desk_.clear();  // the leases end before their sources do
+  if (started_) cameras_->desk().clear();  // the leases end before their sources do
 }
 
+std::int64_t Pipeline::frames_published() const noexcept { return frames_before_ + publisher_.frames(); }
+
 PipelineFigures Pipeline::take_figures() {
-  const auto camera = [](const CaptureThread& thread) {
-    return CameraFigures{thread.report(), thread.frames(), thread.sequence_gaps(), thread.mean_brightness()};
-  };
-  PipelineFigures figures{camera(*left_thread_), camera(*right_thread_), desk_.counts(),
-                          publisher_.take_figures()};
+  PipelineFigures figures{cameras_->figures(), publisher_.take_figures()};
+  figures.published.frames += frames_before_;
+  figures.published.messages_refused += refused_before_;
   if (raw_publisher_) figures.published.messages_refused += raw_publisher_->refused();
   return figures;
 }
 
 void Pipeline::matching_thread() noexcept {
   while (OutputFrame* output = publisher_.wait_free()) {
-    std::optional<LeasedPair> pair = desk_.wait_pair();
+    std::optional<LeasedPair> pair = cameras_->desk().wait_pair(retiring_);
     if (!pair || stopping_) break;
     match_pair(*pair, *output);
   }
   publisher_.drain();
-  finished_ = true;
+  finished_ = !retiring_;
 }
 
 void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
@@ -101,7 +137,7 @@ void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
   facts.right_ns = pair.right_ns;
   facts.left_sequence = pair.left.frame().sequence;
   facts.right_sequence = pair.right.frame().sequence;
-  prepare_maps(pair);
+  prepare_maps(layout_of(pair.left.frame().luma), layout_of(pair.right.frame().luma));
   facts.started_ns = monotonic_ns();
   run_workers(pair, output);
   facts.filter_ns = 0;
@@ -113,16 +149,15 @@ void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
 
 // The tables are made when the first frame shows how its pixels lie in memory, and again if that ever
 // changes.
-void Pipeline::prepare_maps(const LeasedPair& pair) {
+void Pipeline::prepare_maps(const SourceLayout& left, const SourceLayout& right) {
   const auto prepare = [](std::optional<RectifyMap>& map, std::optional<ValidityMask>& mask,
-                          const FrameLease& lease, const CameraCalibration* camera) {
-    const SourceLayout layout = layout_of(lease.frame().luma);
+                          const SourceLayout& layout, const CameraCalibration* camera) {
     if (map && map->layout() == layout) return;
     map.emplace(camera != nullptr ? RectifyMap(*camera, layout) : RectifyMap::identity(layout));
     mask.emplace(map->mask());
   };
-  prepare(left_map_, left_mask_, pair.left, rig_.calibration ? &rig_.calibration->left : nullptr);
-  prepare(right_map_, right_mask_, pair.right, rig_.calibration ? &rig_.calibration->right : nullptr);
+  prepare(left_map_, left_mask_, left, calibration_ ? &calibration_->left : nullptr);
+  prepare(right_map_, right_mask_, right, calibration_ ? &calibration_->right : nullptr);
 }
 
 void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {

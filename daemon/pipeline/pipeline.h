@@ -13,25 +13,14 @@
 #include "daemon/capture/rig.h"
 #include "daemon/config/config.h"
 #include "daemon/pipeline/band_worker.h"
-#include "daemon/pipeline/capture_thread.h"
+#include "daemon/pipeline/cameras.h"
 #include "daemon/pipeline/frame_publisher.h"
-#include "daemon/pipeline/pairing_desk.h"
 #include "daemon/pipeline/raw_publisher.h"
 
 namespace stereod {
 
-/// What one camera did since the start.
-struct CameraFigures {
-  SourceReport report;
-  std::int64_t frames = 0;
-  std::int64_t sequence_gaps = 0;
-  double mean_brightness = 0;  ///< of the latest frame, 0…255
-};
-
 /// What the pipeline did; see PublisherFigures for what "recent" means.
-struct PipelineFigures {
-  CameraFigures left, right;
-  PairingCounts pairing;
+struct PipelineFigures : CamerasFigures {
   PublisherFigures published;
 };
 
@@ -39,15 +28,27 @@ struct PipelineFigures {
 /// sentence.
 void check_pipeline(const Config& config, Size size);
 
-/// Runs these threads: one for each camera (CaptureThread), the matching thread, which takes pairs and is
-/// itself the first of the workers, the other workers, and the publisher. After the first frame it allocates
+/// Runs these threads: one for each camera (Cameras), the matching thread, which takes pairs and is itself
+/// the first of the workers, the other workers, and the publisher. After the first frame it allocates
 /// nothing.
+///
+/// Settings do not change during its life. Other settings are another pipeline, which is made while this one
+/// works and then takes over its cameras (or brings its own), its counts and the numbering of frames.
 class Pipeline {
  public:
   /// Starts at once. The bus outlives it. Throws std::invalid_argument with a sentence if the configuration
   /// cannot work with frames of this size or on this CPU.
   Pipeline(const Config& config, Rig rig, MessageBus& bus);
+
+  /// Gets ready to take over from another pipeline, and throws as above. The cameras are that one's, or
+  /// others that were not started yet.
+  Pipeline(const Config& config, std::optional<Calibration> calibration, std::shared_ptr<Cameras> cameras,
+           MessageBus& bus);
   ~Pipeline();
+
+  /// Lets the other pipeline end the frame it is at, stops its cameras if these are others, and starts. A
+  /// pair that comes meanwhile is kept if there is no newer one. The other one is of no use any more.
+  void take_over(Pipeline& other);
 
   /// Stops cameras and workers, in the direction of the data. Rows not sent by then are dropped.
   void stop() noexcept;
@@ -55,26 +56,35 @@ class Pipeline {
   /// True once the cameras have played to their end and everything is published.
   bool finished() const noexcept { return finished_; }
 
+  /// Nothing is to be done until the cameras bring a pair.
+  bool waits_for_cameras() const noexcept { return cameras_->desk().taker_waits(); }
+  /// Frames published since the start.
+  std::int64_t frames_published() const noexcept;
+
   PipelineFigures take_figures();
 
-  const Rig& rig() const { return rig_; }
+  const Rig& rig() const { return cameras_->rig(); }
+  const std::shared_ptr<Cameras>& cameras() const { return cameras_; }
+  const std::optional<Calibration>& calibration() const { return calibration_; }
   const Config& config() const { return config_; }
   /// For people: "block simd avx2, 2 workers".
   const std::string& matcher_description() const { return matcher_description_; }
 
  private:
+  void start();
+  void retire() noexcept;
   void matching_thread() noexcept;
   void match_pair(const LeasedPair& pair, OutputFrame& output);
-  void prepare_maps(const LeasedPair& pair);
+  void prepare_maps(const SourceLayout& left, const SourceLayout& right);
   void run_workers(const LeasedPair& pair, OutputFrame& output);
   void filter_frame(OutputFrame& output) noexcept;
 
   const Config config_;
-  Rig rig_;
+  std::shared_ptr<Cameras> cameras_;
+  const std::optional<Calibration> calibration_;
   const Size size_;
   std::string matcher_description_;
   FramePublisher publisher_;
-  PairingDesk desk_;
   WorkerPool pool_;
   std::vector<BandWorker> workers_;
   std::optional<SpeckleFilter> speckle_filter_;
@@ -82,9 +92,12 @@ class Pipeline {
   std::optional<RectifyMap> left_map_, right_map_;
   std::optional<ValidityMask> left_mask_, right_mask_;  // of the maps
   std::int64_t next_frame_ = 0;
+  std::int64_t frames_before_ = 0,
+               refused_before_ = 0;  // published by, and refused to, those taken over from
+  bool started_ = false;
+  std::atomic<bool> retiring_{false};
   std::atomic<bool> stopping_{false};
   std::atomic<bool> finished_{false};
-  std::optional<CaptureThread> left_thread_, right_thread_;
   std::thread matching_thread_;
 };
 

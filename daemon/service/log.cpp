@@ -81,8 +81,12 @@ void set_up_log(const std::string& level) {
     formatter->add_flag<SystemdPriority>('*').set_pattern("<%*>%v");
     logger->set_formatter(std::move(formatter));
   }
-  logger->set_level(spdlog::level::from_str(level));
   spdlog::set_default_logger(std::move(logger));
+  set_log_level(level);
+}
+
+void set_log_level(const std::string& level) {
+  spdlog::default_logger()->set_level(spdlog::level::from_str(level));
 }
 
 }  // namespace stereod

@@ -10,4 +10,7 @@ namespace stereod {
 /// Nothing on the per-frame path logs.
 void set_up_log(const std::string& level);
 
+/// Another level from now on. Any thread may be logging meanwhile.
+void set_log_level(const std::string& level);
+
 }  // namespace stereod

@@ -53,30 +53,35 @@ ServiceState judge_state(const Activity& activity, bool calibrated) {
 }
 
 StatusReporter::StatusReporter(Pipeline& pipeline, MessageBus& bus)
-    : pipeline_(pipeline),
-      bus_(bus),
-      encoder_(kLargestStatus),
-      status_channel_(pipeline.config().lcm.prefix + "_STATUS"),
-      camera_info_channel_(pipeline.config().lcm.prefix + "_CAMERA_INFO"),
-      patience_ns_(patience_for(pipeline.config().cameras.fps)),
+    : encoder_(kLargestStatus),
       started_ns_(monotonic_ns()),
       before_ns_(started_ns_),
       before_cpu_s_(process_cpu_seconds()) {
   status_.version = kVersion;
-  status_.matcher = pipeline.matcher_description();
   status_.left.name = "left";
-  status_.left.device = pipeline.rig().left_name.substr(0, kLongestText);
   status_.right.name = "right";
+  follow(pipeline, bus);
+}
+
+void StatusReporter::follow(Pipeline& pipeline, MessageBus& bus) {
+  pipeline_ = &pipeline;
+  bus_ = &bus;
+  const Config& config = pipeline.config();
+  status_channel_ = config.lcm.prefix + "_STATUS";
+  camera_info_channel_ = config.lcm.prefix + "_CAMERA_INFO";
+  patience_ns_ = patience_for(config.cameras.fps);
+  status_.matcher = pipeline.matcher_description();
+  status_.left.device = pipeline.rig().left_name.substr(0, kLongestText);
   status_.right.device = pipeline.rig().right_name.substr(0, kLongestText);
 }
 
-void StatusReporter::report() {
-  const PipelineFigures now = pipeline_.take_figures();
+const status_t& StatusReporter::report() {
+  const PipelineFigures now = pipeline_->take_figures();
   const std::int64_t now_ns = monotonic_ns();
   const double seconds = std::max(1e-3, static_cast<double>(now_ns - before_ns_) * 1e-9);
   const double cpu_s = process_cpu_seconds();
   const Activity activity = recent_activity(now, now_ns);
-  const bool calibrated = pipeline_.rig().calibration.has_value();
+  const bool calibrated = pipeline_->calibration().has_value();
   const ServiceState state = std::exchange(first_, false)
                                  ? ServiceState{"starting", "waiting for the first frames"}
                                  : judge_state(activity, calibrated);
@@ -92,6 +97,10 @@ void StatusReporter::report() {
   if (state.name == "waiting_for_cameras") {
     if (!activity.left_frames) add_reason(status_.reason, now.left.report);
     if (!activity.right_frames) add_reason(status_.reason, now.right.report);
+  }
+  if (!remark_.empty()) {
+    if (!status_.reason.empty()) status_.reason += "; ";
+    status_.reason += remark_.substr(0, kLongestText);
   }
   status_.uptime_s = static_cast<double>(now_ns - started_ns_) * 1e-9;
   status_.fps_in = static_cast<double>(now.pairing.pairs - before_.pairing.pairs) / seconds;
@@ -112,7 +121,7 @@ void StatusReporter::report() {
   status_.valid_fraction = now.published.valid_fraction;
   status_.cpu_percent = 100 * (cpu_s - before_cpu_s_) / seconds;
   status_.rss_mb = process_rss_mb();
-  if (const auto& cameras = pipeline_.rig().cameras) {
+  if (const auto& cameras = pipeline_->rig().cameras) {
     const PhaseReport phase = cameras->phase();
     status_.phase_alignment = name_of(phase.state);
     status_.phase_skew_ms = phase.skew_ms;
@@ -120,12 +129,13 @@ void StatusReporter::report() {
   }
   fill_camera(status_.left, now.left, before_.left, seconds);
   fill_camera(status_.right, now.right, before_.right, seconds);
-  encoder_.publish(bus_, status_channel_.c_str(), status_);
+  encoder_.publish(*bus_, status_channel_.c_str(), status_);
   publish_camera_info();
 
   before_ = now;
   before_ns_ = now_ns;
   before_cpu_s_ = cpu_s;
+  return status_;
 }
 
 Activity StatusReporter::recent_activity(const PipelineFigures& now, std::int64_t now_ns) {
@@ -164,15 +174,15 @@ void StatusReporter::fill_camera(camera_status_t& message, const CameraFigures& 
 }
 
 void StatusReporter::publish_camera_info() {
-  const MatcherOptions& matcher = pipeline_.config().matcher;
-  const Size size = pipeline_.rig().left->frame_size();
+  const MatcherOptions& matcher = pipeline_->config().matcher;
+  const Size size = pipeline_->rig().left->frame_size();
   camera_info_t info{};
   info.utime = wall_us();
   info.width = size.width;
   info.height = size.height;
   info.min_disparity = matcher.min_disparity;
   info.disparities = matcher.disparities;
-  if (const auto& calibration = pipeline_.rig().calibration) {
+  if (const auto& calibration = pipeline_->calibration()) {
     const RectifiedProjection& left = calibration->left.projection;
     info.calibrated = 1;
     info.fx = left.fx;
@@ -183,7 +193,7 @@ void StatusReporter::publish_camera_info() {
     info.disparity_offset = calibration->right.projection.cx - left.cx;
     info.calibration_id = calibration->id;
   }
-  encoder_.publish(bus_, camera_info_channel_.c_str(), info);
+  encoder_.publish(*bus_, camera_info_channel_.c_str(), info);
 }
 
 }  // namespace stereod

@@ -33,8 +33,14 @@ class StatusReporter {
  public:
   StatusReporter(Pipeline& pipeline, MessageBus& bus);
 
-  /// To be called about once a second; the first call says "starting".
-  void report();
+  /// From now on about this pipeline, which goes on counting where the one before it ended, and on this bus.
+  void follow(Pipeline& pipeline, MessageBus& bus);
+
+  /// A sentence that is added to every reason until it is replaced; empty: nothing.
+  void set_remark(const std::string& remark) { remark_ = remark; }
+
+  /// To be called about once a second; the first call says "starting". What it said.
+  const status_t& report();
 
  private:
   void publish_camera_info();
@@ -42,8 +48,8 @@ class StatusReporter {
   void fill_camera(camera_status_t& message, const CameraFigures& now, const CameraFigures& before,
                    double seconds);
 
-  Pipeline& pipeline_;
-  MessageBus& bus_;
+  Pipeline* pipeline_ = nullptr;  // never null once constructed
+  MessageBus* bus_ = nullptr;     // likewise
   MessageEncoder encoder_;
   status_t status_{};
   std::string status_channel_, camera_info_channel_;
@@ -52,8 +58,9 @@ class StatusReporter {
   struct {
     std::int64_t left = 0, right = 0, pair = 0, publication = 0;
   } last_ns_;
-  const std::int64_t patience_ns_;  // how long nothing may happen before it counts as missing
+  std::int64_t patience_ns_ = 0;  // how long nothing may happen before it counts as missing
   bool first_ = true;
+  std::string remark_;
   ServiceState logged_;
   std::int64_t started_ns_, before_ns_;
   double before_cpu_s_;

@@ -40,7 +40,8 @@ TEST(V4l2Threads, PairsComeThroughFaultsUnplugsAndRestarts) {
     CaptureThread right(Side::kRight, *bench.right, desk);
     std::thread matcher([&] {
       unsigned sum = 0;
-      while (std::optional<LeasedPair> pair = desk.wait_pair()) {
+      const std::atomic<bool> called_off{false};
+      while (std::optional<LeasedPair> pair = desk.wait_pair(called_off)) {
         const LumaView& luma = pair->left.frame().luma;
         for (int y = 0; y < luma.size.height; ++y) sum += luma.data[y * luma.row_stride];
         std::this_thread::sleep_for(1ms);

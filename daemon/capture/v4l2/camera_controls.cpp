@@ -80,6 +80,17 @@ int CameraControls::switch_off_automatic(std::uint32_t id) {
   return 0;
 }
 
+void CameraControls::reset(std::uint32_t id) {
+  const DeviceControl* control = find(id);
+  if (control == nullptr) return;
+  // The value first: an automatic mode may overrule it.
+  device_.set_control(id, control->preset);
+  for (const Automatic& automatic : kAutomatic) {
+    const DeviceControl* mode = automatic.value == id ? find(automatic.mode) : nullptr;
+    if (mode != nullptr) device_.set_control(mode->id, mode->preset);
+  }
+}
+
 std::string CameraControls::apply(const ControlValues& values) {
   std::string complaints;
   std::vector<std::uint32_t> named_modes;

@@ -20,6 +20,9 @@ class CameraControls {
   /// them; empty if everything is as it should be.
   std::string apply(const ControlValues& values);
 
+  /// Gives a control and the automatic mode that sets it the values the camera has from its maker.
+  void reset(std::uint32_t id);
+
   /// The control with this V4L2 number; null if the camera has none.
   const DeviceControl* find(std::uint32_t id) const;
   /// The control with this name, as the kernel has it or had it in other versions; null if there is none.

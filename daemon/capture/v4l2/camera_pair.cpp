@@ -72,6 +72,22 @@ std::optional<ExposureValues> CameraPair::exposure() noexcept {
   return exposure_;
 }
 
+void CameraPair::set_controls(const V4l2Config& config) {
+  const std::lock_guard lock(mutex_);
+  config_.v4l2.exposure = config.exposure;
+  config_.v4l2.controls = config.controls;
+  config_.v4l2.left_controls = config.left_controls;
+  config_.v4l2.right_controls = config.right_controls;
+  exposure_.reset();
+  ++controls_number_;
+}
+
+V4l2Config CameraPair::controls(int& number) {
+  const std::lock_guard lock(mutex_);
+  number = controls_number_;
+  return config_.v4l2;
+}
+
 std::string bus_of(const std::string& bus_info) {
   const std::size_t dash = bus_info.rfind('-');
   const bool port_follows = bus_info.starts_with("usb-") && dash != bus_info.npos && dash > 3;

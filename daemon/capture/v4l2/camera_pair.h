@@ -53,6 +53,13 @@ class CameraPair {
   void set_exposure(const ExposureValues& values) noexcept;
   std::optional<ExposureValues> exposure() noexcept;
 
+  /// Other controls and another exposure mode for both cameras, which take them between two frames or when
+  /// they are set up next. The exposure is found anew.
+  void set_controls(const V4l2Config& config);
+  /// Their configuration as it is now; each change has a higher number.
+  V4l2Config controls(int& number);
+  int controls_number() const noexcept { return controls_number_; }
+
   /// Where on the ladder of formats both cameras stand. It only goes down, and both go together, because two
   /// cameras on one bus share its bandwidth and because matching needs two equal pictures.
   int ladder_step() const noexcept { return ladder_step_; }
@@ -74,7 +81,8 @@ class CameraPair {
   };
   Camera& of(Side side) { return cameras_[side == Side::kLeft ? 0 : 1]; }
 
-  const CamerasConfig config_;
+  CamerasConfig config_;
+  std::atomic<int> controls_number_{0};
   std::mutex mutex_;
   Camera cameras_[2];
   std::atomic<int> ladder_step_{0};

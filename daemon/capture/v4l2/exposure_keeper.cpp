@@ -8,9 +8,8 @@ namespace stereod {
 
 std::string ExposureKeeper::begin(VideoDevice& device, std::int64_t now_ns) {
   CameraControls controls(device);
-  ControlValues values = config_.controls;
-  const ControlValues& own = side_ == Side::kLeft ? config_.left_controls : config_.right_controls;
-  for (const auto& [name, value] : own) values[name] = value;
+  if (outdated()) take_controls(controls);
+  const ControlValues values = this->values();
   bool priority_named = false;
   fixed_by_config_ = false;
   for (const auto& [name, value] : values) {
@@ -43,6 +42,29 @@ std::string ExposureKeeper::begin(VideoDevice& device, std::int64_t now_ns) {
   const std::int64_t time = read(device).time.value_or(0);
   exposure_ns_ = time > 0 ? time * 100'000 : 0;
   return complaints;
+}
+
+// Of both cameras, and what this one has for itself.
+ControlValues ExposureKeeper::values() const {
+  ControlValues values = config_.controls;
+  const ControlValues& own = side_ == Side::kLeft ? config_.left_controls : config_.right_controls;
+  for (const auto& [name, value] : own) values[name] = value;
+  return values;
+}
+
+void ExposureKeeper::take_controls(CameraControls& controls) {
+  const ControlValues before = values();
+  const ExposureMode mode_before = config_.exposure;
+  config_ = pair_.controls(controls_number_);
+  const ControlValues now = values();
+  for (const auto& [name, value] : before) {
+    const DeviceControl* control = controls.find(name);
+    if (control != nullptr && now.count(name) == 0) controls.reset(control->id);
+  }
+  if (mode_before != ExposureMode::kAuto && config_.exposure == ExposureMode::kAuto) {
+    controls.reset(V4L2_CID_EXPOSURE_AUTO);
+    controls.reset(V4L2_CID_AUTOGAIN);
+  }
 }
 
 bool ExposureKeeper::tick(VideoDevice& device, std::int64_t now_ns) noexcept {

@@ -24,7 +24,11 @@ class ExposureKeeper {
   ExposureKeeper(CameraPair& pair, Side side, const V4l2Config& config)
       : pair_(pair), side_(side), config_(config) {}
 
-  /// Sets a camera up that was just opened; what did not take, in words.
+  /// The pair's controls have changed since begin().
+  bool outdated() const noexcept { return controls_number_ != pair_.controls_number(); }
+
+  /// Sets a camera up that was just opened, or whose controls have changed: what the configuration names no
+  /// more goes back to the camera's preset. What did not take, in words.
   std::string begin(VideoDevice& device, std::int64_t now_ns);
 
   /// Does what is due, between two frames. Allocates nothing. True if a value did not take: see problem().
@@ -38,13 +42,16 @@ class ExposureKeeper {
   static constexpr std::int64_t kPeriod = 500'000'000;
   static constexpr std::int64_t kSettle = 2'000'000'000;
 
+  void take_controls(CameraControls& controls);
+  ControlValues values() const;
   ExposureValues read(VideoDevice& device) noexcept;
   void fix(VideoDevice& device, const ExposureValues& values) noexcept;
   void go_manual(VideoDevice& device) noexcept;
 
   CameraPair& pair_;
   const Side side_;
-  const V4l2Config config_;
+  V4l2Config config_;
+  int controls_number_ = 0;
   bool has_time_ = false, has_gain_ = false, has_time_mode_ = false, has_gain_mode_ = false;
   bool fixed_by_config_ = false;
   std::int64_t next_ns_ = 0;

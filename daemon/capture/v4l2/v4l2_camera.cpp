@@ -193,6 +193,10 @@ void V4l2Camera::restart_in_phase() {
 
 // Between two frames, when nothing waits.
 void V4l2Camera::keep_exposure() {
+  if (exposure_.outdated()) {
+    set_note(exposure_.begin(stream_.device(), system_.now_ns()));
+    return;
+  }
   if (exposure_.tick(stream_.device(), system_.now_ns())) set_note(exposure_.problem());
 }
 

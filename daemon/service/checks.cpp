@@ -1,0 +1,43 @@
+#include "daemon/service/checks.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/match/isa.h"
+#include "daemon/config/file_error.h"
+#include "daemon/pipeline/pipeline.h"
+#include "daemon/publish/lcm_bus.h"
+#include "daemon/publish/wire_limits.h"
+
+namespace stereod {
+
+void check_config(const Config& config, const std::filesystem::path& file) {
+  try {
+    url_to_publish(config.lcm.url);
+  } catch (const BusError& error) {
+    throw FileError(place_of(file, "lcm.url") + ": " + error.what());
+  }
+  try {
+    resolve_isa(config.matcher.isa);
+  } catch (const std::invalid_argument& error) {
+    throw FileError(place_of(file, "matcher.isa") + ": " + error.what());
+  }
+}
+
+void check_frame_size(const Config& config, const std::filesystem::path& file, Size size) {
+  try {
+    check_pipeline(config, size);
+  } catch (const std::invalid_argument& error) {
+    const bool too_large = std::max(size.width, size.height) > kLargestImageSide;
+    throw FileError(place_of(file, too_large ? "cameras" : "lcm.rows_per_message") + ": " + error.what());
+  }
+}
+
+Rig open_checked_rig(const Config& config, const std::filesystem::path& file) {
+  check_config(config, file);
+  Rig rig = open_rig(config);
+  check_frame_size(config, file, rig.left->frame_size());
+  return rig;
+}
+
+}  // namespace stereod

@@ -1,0 +1,120 @@
+#include "daemon/service/service.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "daemon/pipeline/clocks.h"
+#include "daemon/publish/lcm_url.h"
+#include "daemon/service/checks.h"
+#include "daemon/service/log.h"
+#include "daemon/service/status_line.h"
+#include "daemon/service/version.h"
+
+namespace stereod {
+namespace {
+
+constexpr std::int64_t kReportPeriod = 1'000'000'000;
+
+// But for what cameras that stream can be given.
+bool same_cameras(CamerasConfig a, const CamerasConfig& b) {
+  a.v4l2.exposure = b.v4l2.exposure;
+  a.v4l2.controls = b.v4l2.controls;
+  a.v4l2.left_controls = b.v4l2.left_controls;
+  a.v4l2.right_controls = b.v4l2.right_controls;
+  return a == b;
+}
+
+std::string in_words(const Pipeline& pipeline) {
+  const Size size = pipeline.rig().left->frame_size();
+  return std::string(name_of(pipeline.config().cameras.source)) + " at " + std::to_string(size.width) + "×" +
+         std::to_string(size.height) + ", matcher " + pipeline.matcher_description() + ", channels " +
+         pipeline.config().lcm.prefix + "_*";
+}
+
+}  // namespace
+
+Service::Service(Config config, std::filesystem::path file, OpenBus open_bus)
+    : file_(std::move(file)), open_bus_(std::move(open_bus)), config_(std::move(config)) {
+  Rig rig = open_checked_rig(config_, file_);
+  bus_ = open_bus_(config_.lcm.url);
+  pipeline_ = std::make_unique<Pipeline>(config_, std::move(rig), *bus_);
+  reporter_ = std::make_unique<StatusReporter>(*pipeline_, *bus_);
+  spdlog::info("stereod {}: {}", kVersion, in_words(*pipeline_));
+  next_report_ns_ = monotonic_ns();
+}
+
+void Service::tick() {
+  if (pipeline_->frames_published() > 0) manager_.ready();
+  const std::int64_t now = monotonic_ns();
+  if (now < next_report_ns_) return;
+  next_report_ns_ = std::max(next_report_ns_ + kReportPeriod, now);
+  report();
+}
+
+void Service::report() {
+  const status_t& status = reporter_->report();
+  manager_.status(status_line(status));
+  if (status.state == "waiting_for_cameras") manager_.ready();
+  if (status.frames_published > published_when_alive_ || pipeline_->waits_for_cameras()) {
+    published_when_alive_ = status.frames_published;
+    manager_.alive();
+  }
+}
+
+void Service::reload() {
+  manager_.reloading();
+  try {
+    adopt(read_config(file_));
+    reporter_->set_remark("");
+  } catch (const std::exception& error) {
+    const std::string remark = std::string("the configuration was not taken over: ") + error.what();
+    spdlog::error("{}; everything stays as it was", remark);
+    reporter_->set_remark(remark);
+  }
+  manager_.reloaded();
+}
+
+// Whatever can fail is done before anything is given up.
+void Service::adopt(const Config& config) {
+  check_config(config, file_);
+  const bool keep_cameras = same_cameras(config_.cameras, config.cameras);
+  std::shared_ptr<Cameras> cameras = pipeline_->cameras();
+  std::optional<Calibration> calibration;
+  if (keep_cameras) {
+    check_frame_size(config, file_, cameras->rig().left->frame_size());
+    calibration = calibration_for(config, cameras->rig());
+  } else {
+    Rig rig = open_checked_rig(config, file_);
+    calibration = rig.calibration;
+    cameras = std::make_shared<Cameras>(config.cameras, std::move(rig));
+  }
+  std::unique_ptr<MessageBus> bus;
+  if (effective_lcm_url(config.lcm.url) != effective_lcm_url(config_.lcm.url))
+    bus = open_bus_(config.lcm.url);
+  auto pipeline = std::make_unique<Pipeline>(config, std::move(calibration), cameras, bus ? *bus : *bus_);
+
+  if (keep_cameras && cameras->rig().cameras && config.cameras != config_.cameras) {
+    cameras->rig().cameras->set_controls(config.cameras.v4l2);
+  }
+  cameras.reset();  // whoever gives them up last closes them
+  pipeline->take_over(*pipeline_);
+  reporter_->follow(*pipeline, bus ? *bus : *bus_);
+  pipeline_ = std::move(pipeline);
+  if (bus) bus_ = std::move(bus);
+  config_ = config;
+  set_log_level(config.log_level);
+  spdlog::info("the configuration was read again: {}; the cameras {}", in_words(*pipeline_),
+               keep_cameras ? "went on" : "are set up anew");
+}
+
+void Service::stop() {
+  manager_.stopping();
+  if (finished()) reporter_->report();  // with the last frames in it
+  pipeline_->stop();
+}
+
+}  // namespace stereod
