@@ -18,6 +18,9 @@ install(FILES ${PROJECT_SOURCE_DIR}/etc/sysctl.d/60-stereod.conf DESTINATION lib
 install(FILES ${PROJECT_SOURCE_DIR}/etc/udev/60-stereod.rules DESTINATION /lib/udev/rules.d COMPONENT stereod)
 install(FILES ${PROJECT_SOURCE_DIR}/etc/demo.yaml
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/stereod/examples COMPONENT stereod)
+# Drop-ins to copy.
+install(FILES ${PROJECT_SOURCE_DIR}/systemd/examples/realtime.conf
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/stereod/examples COMPONENT stereod)
 
 # --- stereo-calibrate
 if(TARGET stereo-calibrate)
@@ -78,15 +81,15 @@ endforeach()
 
 # What the programs link, by library and version: written when they are installed.
 install(CODE "execute_process(COMMAND ${package_dir}/bill-of-materials.sh
-  --version ${PROJECT_VERSION} --sysroot '${CMAKE_SYSROOT}' --objdump '${CMAKE_OBJDUMP}'
-  --output \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/doc/stereod/bill-of-materials.spdx
+  --version ${PROJECT_VERSION} --sysroot \"${CMAKE_SYSROOT}\" --objdump \"${CMAKE_OBJDUMP}\"
+  --output \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/doc/stereod/bill-of-materials.spdx\"
   $<TARGET_FILE:stereod> $<TARGET_FILE:stereo-match> $<TARGET_FILE:stereo-tap> COMMAND_ERROR_IS_FATAL ANY)"
   COMPONENT stereod)
 
 # --- cpack
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME stereod)
-set(CPACK_PACKAGE_CONTACT "The stereod authors <stereod@localhost.localdomain>")
+set(CPACK_PACKAGE_CONTACT "The stereod authors <stereod@stereod.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR})
