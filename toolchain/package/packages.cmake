@@ -89,6 +89,8 @@ install(CODE "execute_process(COMMAND ${package_dir}/bill-of-materials.sh
 # --- cpack
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME stereod)
+# Equal to its default, so that it is not put before what each package says of itself.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_NAME} built using CMake")
 set(CPACK_PACKAGE_CONTACT "The stereod authors <stereod@stereod.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -97,14 +99,20 @@ set(CPACK_COMPONENTS_ALL ${components})
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-set(CPACK_PROJECT_CONFIG_FILE ${package_dir}/time_of_commit.cmake)
+set(CPACK_PROJECT_CONFIG_FILE ${package_dir}/before_cpack.cmake)
+set(CPACK_SYSROOT ${CMAKE_SYSROOT})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_VERSION ${PROJECT_VERSION})
-if(STEREOD_DEBIAN_ARCHITECTURE)
+if(STEREOD_DEBIAN_ARCHITECTURE)  # a toolchain file says it
   set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE ${STEREOD_DEBIAN_ARCHITECTURE})
+endif()
+if(CMAKE_SYSROOT)
+  # Dependencies are told by the sysroot's own list of packages.
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
+    ${CMAKE_SYSROOT}/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE} ${CMAKE_SYSROOT}/lib/${CMAKE_LIBRARY_ARCHITECTURE})
 endif()
 
 set(CPACK_DEBIAN_STEREOD_PACKAGE_NAME stereod)
@@ -112,10 +120,10 @@ set(CPACK_DEBIAN_STEREOD_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_STEREOD_PACKAGE_DEPENDS "systemd (>= 252) | systemd-standalone-sysusers, udev, iproute2")
 set(CPACK_DEBIAN_STEREOD_PACKAGE_SUGGESTS "stereo-calibrate, liblcm-bin, liblcm-java")
 set(CPACK_COMPONENT_STEREOD_DESCRIPTION "stereo vision daemon for robot boards
- Reads two webcams, rectifies their pictures with a lookup table, matches them
- with a threaded SIMD block matcher and publishes rows of disparity over LCM to
- the other processes of the robot. With the tools stereo-tap (watch, save and
- check what is published) and stereo-match (the same matcher on two files).")
+Reads two webcams, rectifies their pictures with a lookup table, matches them
+with a threaded SIMD block matcher and publishes rows of disparity over LCM to
+the other processes of the robot. With the tools stereo-tap (watch, save and
+check what is published) and stereo-match (the same matcher on two files).")
 set(CPACK_DEBIAN_STEREOD_PACKAGE_CONTROL_EXTRA
   ${package_dir}/stereod/conffiles ${package_dir}/stereod/postinst ${package_dir}/stereod/prerm
   ${package_dir}/stereod/postrm)
@@ -124,15 +132,15 @@ set(CPACK_DEBIAN_STEREO-CALIBRATE_PACKAGE_NAME stereo-calibrate)
 set(CPACK_DEBIAN_STEREO-CALIBRATE_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_STEREO-CALIBRATE_PACKAGE_SUGGESTS stereod)
 set(CPACK_COMPONENT_STEREO-CALIBRATE_DESCRIPTION "calibration of two cameras for stereod
- Calibrates a pair of cameras from a printed chessboard, live with guidance or
- from pictures, says whether the result is any good, and takes over and writes
- calibrations of ROS, OpenCV and Kalibr. May live on another machine than
- stereod.")
+Calibrates a pair of cameras from a printed chessboard, live with guidance or
+from pictures, says whether the result is any good, and takes over and writes
+calibrations of ROS, OpenCV and Kalibr. May live on another machine than
+stereod.")
 
 set(CPACK_DEBIAN_LIBSTEREOD-DEV_PACKAGE_NAME libstereod-dev)
 set(CPACK_DEBIAN_LIBSTEREOD-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBSTEREOD-DEV_PACKAGE_DEPENDS liblcm-dev)
 set(CPACK_COMPONENT_LIBSTEREOD-DEV_DESCRIPTION "development files for receivers of stereod's messages
- The LCM types of stereod's messages, the C++ classes made of them, and what
- CMake (find_package(stereod)) and pkg-config need to find them.")
+The LCM types of stereod's messages, the C++ classes made of them, and what
+CMake (find_package(stereod)) and pkg-config need to find them.")
 include(CPack)

@@ -6,3 +6,7 @@ if(NOT DEFINED ENV{SOURCE_DATE_EPOCH})
     set(ENV{SOURCE_DATE_EPOCH} ${commit_time})
   endif()
 endif()
+# dpkg-shlibdeps looks into the sysroot a foreign package was built against.
+if(CPACK_SYSROOT)
+  set(ENV{DPKG_ADMINDIR} ${CPACK_SYSROOT}/var/lib/dpkg)
+endif()
