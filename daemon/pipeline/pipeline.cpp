@@ -75,7 +75,7 @@ void Pipeline::stop() noexcept {
 
 PipelineFigures Pipeline::take_figures() {
   const auto camera = [](const CaptureThread& thread) {
-    return CameraFigures{thread.report(), thread.frames(), thread.sequence_gaps(), thread.mean_brightness()};
+    return CameraFigures{thread.report(), thread.frames(), thread.mean_brightness()};
   };
   PipelineFigures figures{camera(*left_thread_), camera(*right_thread_), desk_.counts(),
                           publisher_.take_figures()};

@@ -18,7 +18,8 @@ size=320x240 start_stereod "serial:$left_serial" "serial:$right_serial" mjpeg 'a
     target_skew_ms: 3
     align_tries: 12'
 need_streaming 60
-if ! wait_for 90 says 'phase alignment +aligned'; then
+aligned() { get_status && grep -q "^phase alignment  *aligned" status.txt; }
+if ! wait_for 90 aligned; then
   cat status.txt stereod.log
   # The stamps are taken by the guest's clock when a frame begins to arrive: on a busy machine much too late.
   if [[ $jitter -gt 1500 ]]; then
