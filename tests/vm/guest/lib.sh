@@ -90,10 +90,18 @@ of_camera() {
     on { print side == "left" ? substr($0, 17, right - 17) : substr($0, right) }' status.txt | tr -s ' \n' ' ' |
     sed 's/^ //; s/ $//'
 }
-# says SIDE ROW PATTERN: what the status says of a camera now.
-says() { get_status && [[ $(of_camera "$1" "$2") =~ $3 ]]; }
+# says SIDE ROW PATTERN [ROW PATTERN]…: whether that is what the status says of a camera now.
+says() {
+  local side=$1
+  shift
+  get_status || return 1
+  while [[ $# -gt 0 ]]; do
+    [[ $(of_camera "$side" "$1") =~ $2 ]] || return 1
+    shift 2
+  done
+}
 # Waits until the status says so.
-need() { wait_for 20 says "$@" || { cat status.txt; tail -n 20 stereod.log; fail "$1 $2 should be: $3"; }; }
+need() { wait_for 20 says "$@" || { cat status.txt; tail -n 20 stereod.log; fail "the status should say: $*"; }; }
 # A count of a camera: the first number of the row.
 count_of() { of_camera "$1" "$2" | sed 's/[^0-9].*//'; }
 # One number behind a label of the table.

@@ -22,14 +22,12 @@ fault() {
   case $kind in
     unplug)
       tell "$side" unplug
-      need "$side" state 'absent|lost'
-      need "$side" reason unplugged
+      need "$side" state 'absent|lost' reason unplugged
       tell "$side" plug
       ;;
     freeze)
       tell "$side" freeze
-      need "$side" state wedged
-      need "$side" reason 'fallen silent'
+      need "$side" state wedged reason 'fallen silent'
       tell "$side" thaw
       ;;
     refuse)

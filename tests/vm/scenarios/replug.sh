@@ -7,7 +7,7 @@ need_streaming 60
 
 echo "=== unplug left"
 tell left unplug
-need left reason unplugged
+need left state 'absent|lost' reason unplugged
 need right frames ', [1-9][0-9.]* /s now'  # the other one goes on
 tell left plug
 need_streaming 40 "plugged in again, the left camera should stream"
@@ -31,14 +31,13 @@ tell right plug 0
 need_recovery "swapping ports"
 [[ $(readlink -f "$(by_id $left_serial)") == $(readlink -f "$(by_path 1)") ]] || fail "the ports are not swapped"
 # Left is what is plugged in where left was.
-need left device "usb-vhci_hcd.0-1"
-need right device "usb-vhci_hcd.0-2"
+need left device usb-vhci_hcd.0-1
+need right device usb-vhci_hcd.0-2
 
 echo "=== freeze for 3 s"
 tell right freeze  # it is the left one now
 sleep 3
-need left state wedged
-need left reason "fallen silent"
+need left state wedged reason 'fallen silent'
 tell right thaw
 need_recovery "the silence"
 cat status.txt
