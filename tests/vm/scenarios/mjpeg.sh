@@ -1,4 +1,4 @@
-# shows: stereod on two webcams, MJPEG 640x480 at 30/s: pairs, rows over LCM, the cameras' table
+# shows: stereod on two webcams, MJPEG 640x480 at 30/s: pairs, rows over LCM, the cameras' table, one exposure for both
 # seconds: 150
 . /share/guest/lib.sh
 start_cameras
@@ -38,5 +38,16 @@ shown "left $left_rate, right $right_rate frames a second; $share % of the frame
 at_least() { awk -v value="$1" -v least="$2" 'BEGIN { exit !(value >= least) }'; }
 at_least "$share" 95 || fail "only $share % of the frames found a partner"
 at_least "$left_rate" 29 && at_least "$right_rate" 29 || fail "the cameras are to give 30 frames a second"
+
+# The left camera's automation makes up for half the light; the right one follows it.
+exposure() { v4l2-ctl -d "$(by_id "$1")" -C exposure_time_absolute | sed 's/.* //'; }
+tell both light 50
+followed() { [[ $(exposure $left_serial) -eq 312 && $(exposure $right_serial) -eq 312 ]]; }
+wait_for 20 followed || fail "the exposure is $(exposure $left_serial) on the left and $(exposure $right_serial) on the right"
+alike() {
+  get_status && awk -v left="$(count_of left brightness)" -v right="$(count_of right brightness)" \
+    'BEGIN { exit !(left > 100 && left - right < 10 && right - left < 10) }'
+}
+wait_for 20 alike || { cat status.txt; fail "the pictures are not equally bright"; }
 stop_stereod
 cat stereod.log
