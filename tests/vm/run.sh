@@ -114,6 +114,7 @@ for name in "${scenarios[@]}"; do
   judge "$name" || failed+=("$name")
 done
 wait "$machine" || true
+trap - EXIT
 rm -rf "${logs:?}/bin"
 if [[ ${#failed[@]} -gt 0 ]]; then
   echo "vm/run: FAILED: ${failed[*]}."
