@@ -204,9 +204,9 @@ void StatusReporter::fill_camera(camera_status_t& message, const CameraFigures& 
   message.frames_bad_stamp = report.bad_stamps;
   message.frames_superseded = report.superseded;
   message.reconnects = report.reconnects;
+  message.sequence_gaps = report.sequence_gaps;
   message.fps = static_cast<double>(now.frames - before.frames) / seconds;
   message.frames = now.frames;
-  message.sequence_gaps = now.sequence_gaps;
 }
 
 void StatusReporter::publish_camera_info() {

@@ -1,6 +1,5 @@
 # shows: the service under systemd: start, rows, reload, unplug and replug, watchdog, stop; an Atom without AVX
 # seconds: 900
-# cpu: Denverton
 . /share/guest/lib.sh
 export SYSTEMD_PAGER= SYSTEMD_COLORS=0
 
