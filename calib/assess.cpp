@@ -38,7 +38,10 @@ Assessment assess(const SolveResult& result) {
     a.left.add(pair.corners.left);
     a.right.add(pair.corners.right);
   }
-  a.depth = {result.held_back.disparity_error_px, std::abs(result.held_back.scale_error)};
+  // What matching adds where it could not be measured: that of an ordinary webcam.
+  constexpr double kMatcher_px = 0.3;
+  a.depth = {result.matched_error_px.value_or(std::hypot(result.held_back.disparity_error_px, kMatcher_px)),
+             std::abs(result.held_back.scale_error)};
   QualityFigures figures;
   figures.pairs_used = result.count(PairFate::kUsed);
   figures.pairs_left_out = disagreeing;

@@ -32,6 +32,10 @@ void refine(const cv::Mat& image, const Board& board, Points& points) {
                    cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 100, 1e-4));
 }
 
+// findChessboardCornersSB draws random numbers, from a source that each thread has of its own: what it finds
+// is not to depend on which thread looked at what before.
+void begin_random_numbers_anew() { cv::theRNG().state = 4711; }
+
 bool find(const cv::Mat& image, const Board& board, Effort effort, Points& points) {
   const cv::Size pattern(board.columns, board.rows);
   const int flags = cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE;
@@ -39,6 +43,7 @@ bool find(const cv::Mat& image, const Board& board, Effort effort, Points& point
     return cv::findChessboardCorners(image, pattern, points, flags | cv::CALIB_CB_FAST_CHECK);
   }
   if (cv::findChessboardCorners(image, pattern, points, flags)) return true;
+  begin_random_numbers_anew();
   return cv::findChessboardCornersSB(image, pattern, points, cv::CALIB_CB_NORMALIZE_IMAGE);
 }
 
@@ -64,6 +69,7 @@ std::optional<FoundBoard> find_board(GreyView picture, const Board& board, Effor
 std::optional<Board> find_any_board(GreyView picture) {
   cv::Mat corners, meta;
   const int flags = cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_LARGER;
+  begin_random_numbers_anew();
   const bool found = cv::findChessboardCornersSB(as_opencv(picture), cv::Size(3, 3), corners, flags, meta);
   if (!found || meta.cols < 3 || meta.rows < 3) return std::nullopt;
   return Board{std::max(meta.cols, meta.rows), std::min(meta.cols, meta.rows), 0};

@@ -31,7 +31,7 @@ void in_parallel(std::size_t count, Work&& work) {
   }
 }
 
-// The board that most of the sampled pictures show, if any.
+// The board that the sampled pictures show, if any.
 std::optional<Board> board_in(const std::vector<PicturePair>& pictures) {
   std::map<std::pair<int, int>, int> votes;
   std::mutex mutex;
@@ -45,10 +45,10 @@ std::optional<Board> board_in(const std::vector<PicturePair>& pictures) {
     progress.step();
   });
   if (votes.empty()) return std::nullopt;
-  // Of two sizes seen equally often, the larger: a hand may cover a column, nothing adds one.
+  // The largest one seen more than once: often only a part of a board is found, but nothing adds a column.
   const auto best = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.second, a.first.first * a.first.second) <
-           std::pair(b.second, b.first.first * b.first.second);
+    return std::pair(a.second > 1, a.first.first * a.first.second) <
+           std::pair(b.second > 1, b.first.first * b.first.second);
   });
   return Board{best->first.first, best->first.second, 0};
 }

@@ -11,9 +11,8 @@
 #include "calib/board_finder.h"
 #include "calib/commands.h"
 #include "calib/corner_order.h"
-#include "calib/daemon_feed.h"
 #include "calib/errors.h"
-#include "calib/frame_feed.h"
+#include "calib/feed_options.h"
 #include "calib/guidance.h"
 #include "calib/live_page.h"
 #include "calib/live_state.h"
@@ -28,11 +27,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Flags {
-  fs::path config, keep;
+  FeedFlags feed;
+  fs::path keep;
   BoardFlags board;
   SolveOutput output;
-  bool daemon = false;
-  std::string lcm_url, prefix = "STEREO";
   int pairs = 15, port = 8090;
 };
 
@@ -87,9 +85,7 @@ void write_pair(const fs::path& folder, std::size_t number, const PicturePair& p
 
 LiveMoment waiting_moment(const Flags& flags, const std::vector<PicturePair>& taken) {
   LiveMoment moment;
-  moment.words = flags.daemon
-                     ? "waiting for the daemon's pictures; is lcm.raw_images true in its stereod.yaml?"
-                     : "waiting for pictures of the cameras";
+  moment.words = flags.feed.waiting_words();
   moment.taken = static_cast<int>(taken.size());
   moment.wanted = flags.pairs;
   return moment;
@@ -128,19 +124,6 @@ std::vector<PicturePair> collect(const Flags& flags, const Board& board, FrameFe
   return taken;
 }
 
-std::unique_ptr<FrameFeed> open_feed(const Flags& flags) {
-  if (flags.daemon == !flags.config.empty()) {
-    throw UsageError(
-        "say where the pictures come from: --config FILE opens the cameras, --daemon takes them from stereod "
-        "while "
-        "it runs");
-  }
-  if (flags.daemon) return std::make_unique<DaemonFeed>(flags.lcm_url, flags.prefix);
-  Config config = read_config(flags.config);
-  config.calibration.clear();  // an old one may not even be for this image size
-  return std::make_unique<RigFeed>(config);
-}
-
 int run(const Flags& flags) {
   const SolveOptions options = solve_options(flags.board);
   if (!options.board) {
@@ -153,7 +136,7 @@ int run(const Flags& flags) {
     fs::create_directories(flags.keep, error);
     require_writable(flags.keep / "left_00.png");
   }
-  const std::unique_ptr<FrameFeed> feed = open_feed(flags);
+  const std::unique_ptr<FrameFeed> feed = open_feed(flags.feed);
   std::unique_ptr<LivePage> page;
   if (flags.port > 0) {
     page = std::make_unique<LivePage>(flags.port);
@@ -178,14 +161,7 @@ void add_capture_command(CLI::App& app, int& status) {
       "capture", "calibrate live: guides you while you move the board before the cameras, then solves");
   auto flags = std::make_shared<Flags>();
   flags->board.board = "9x6";
-  command->add_option("--config", flags->config,
-                      "open the cameras that this stereod.yaml names; stop the daemon first, it holds them");
-  command->add_flag(
-      "--daemon", flags->daemon,
-      "take the pictures of the running daemon, which publishes them with lcm.raw_images: true");
-  command->add_option("--lcm-url", flags->lcm_url,
-                      "with --daemon; default: LCM_DEFAULT_URL, or this machine only");
-  command->add_option("--prefix", flags->prefix, "with --daemon: of its channels")->capture_default_str();
+  add_feed_options(*command, flags->feed);
   command->add_option("--board", flags->board.board, "inner corners across and down")->capture_default_str();
   command
       ->add_option("--square", flags->board.square,

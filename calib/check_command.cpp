@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -10,11 +11,12 @@
 #include "calib/coverage.h"
 #include "calib/depth_error.h"
 #include "calib/errors.h"
+#include "calib/feed_options.h"
 #include "calib/html.h"
-#include "calib/misalignment.h"
 #include "calib/pair_input.h"
 #include "calib/progress.h"
 #include "calib/rectified_view.h"
+#include "calib/row_matches.h"
 #include "calib/verdict.h"
 #include "daemon/config/calibration_file.h"
 
@@ -25,6 +27,8 @@ namespace {
 struct Flags {
   std::filesystem::path calibration;
   PairInput input;
+  FeedFlags feed;
+  int pairs = 10;
   std::string board = "auto", square;
 };
 
@@ -91,6 +95,38 @@ Measured without_board(const Calibration& calibration, const std::vector<Picture
   return result;
 }
 
+// So many pairs of the live pictures, one after the other; fewer only where a recording ends.
+std::vector<PicturePair> live_pairs(const Flags& flags) {
+  constexpr std::chrono::seconds kPatience{15};
+  const std::unique_ptr<FrameFeed> feed = open_feed(flags.feed);
+  std::vector<PicturePair> pictures;
+  Progress progress("taking pairs", static_cast<std::size_t>(flags.pairs));
+  while (static_cast<int>(pictures.size()) < flags.pairs && !feed->finished()) {
+    std::optional<PicturePair> pair = feed->next(kPatience);
+    if (!pair) {
+      if (feed->finished()) break;
+      throw CalibrationError("no pair of pictures came within " + std::to_string(kPatience.count()) + " s (" +
+                             flags.feed.waiting_words() + ")");
+    }
+    if (!pictures.empty() && pair->left.size() != pictures.front().left.size()) {
+      throw CalibrationError("the pictures changed their size while they were taken; begin again");
+    }
+    pictures.push_back(std::move(*pair));
+    progress.step();
+  }
+  if (pictures.empty()) throw CalibrationError("the recording holds no pair of pictures");
+  return pictures;
+}
+
+std::vector<PicturePair> pairs_of(const Flags& flags) {
+  if (!flags.feed.any()) return read_pairs(flags.input);
+  if (!flags.input.folder.empty() || !flags.input.left.empty() || !flags.input.right.empty() ||
+      !flags.input.side_by_side.empty()) {
+    throw UsageError("give either pictures, or --daemon or --config for live ones, not both");
+  }
+  return live_pairs(flags);
+}
+
 std::optional<Board> board_for(const Flags& flags, const std::vector<PicturePair>& pictures) {
   if (flags.board == "none") return std::nullopt;
   if (flags.board != "auto") return parse_board(flags.board);
@@ -101,9 +137,22 @@ std::optional<Board> board_for(const Flags& flags, const std::vector<PicturePair
   }
 }
 
+Measured measure(const Flags& flags, const Calibration& calibration,
+                 const std::vector<PicturePair>& pictures) {
+  const auto board = board_for(flags, pictures);
+  if (!board) return without_board(calibration, pictures);
+  try {
+    return with_board(calibration, pictures, *board, flags.square);
+  } catch (const CalibrationError&) {
+    // What looked like one, somewhere in a scene, was none.
+    if (flags.board != "auto" || !flags.square.empty()) throw;
+    return without_board(calibration, pictures);
+  }
+}
+
 int run(const Flags& flags) {
   const Calibration calibration = read_calibration(flags.calibration);
-  const std::vector<PicturePair> pictures = read_pairs(flags.input);
+  const std::vector<PicturePair> pictures = pairs_of(flags);
   const Size size = pictures.front().left.size();
   if (size != calibration.image) {
     throw CalibrationError(
@@ -111,9 +160,7 @@ int run(const Flags& flags) {
         ", the calibration is for " + std::to_string(calibration.image.width) + "×" +
         std::to_string(calibration.image.height) + "; take pictures of that size, or calibrate at this one");
   }
-  const auto board = board_for(flags, pictures);
-  const Measured measured =
-      board ? with_board(calibration, pictures, *board, flags.square) : without_board(calibration, pictures);
+  const Measured measured = measure(flags, calibration, pictures);
 
   Grade grade = grade_of_row_error(measured.row_error_px);
   std::printf("row error: %.2f px (%s)\n", measured.row_error_px, measured.how.c_str());
@@ -128,7 +175,7 @@ int run(const Flags& flags) {
     depth += (depth.empty() ? "" : ", ") + length_in_words(expected_depth_error_m(calibration, sources, z)) +
              " at " + fixed(z, z < 1 ? 1 : 0) + " m";
   }
-  std::printf("what it means for depth, if disparities are off by as much as rows: %s\n", depth.c_str());
+  std::printf("what it means for depth, if disparities are off by as much as rows: by %s\n", depth.c_str());
   std::printf("verdict: %s\n", grade == Grade::kGood ? "good; no need to calibrate again"
                                : grade == Grade::kUsable
                                    ? "usable; calibrate again when there is time"
@@ -140,14 +187,18 @@ int run(const Flags& flags) {
 }  // namespace
 
 void add_check_command(CLI::App& app, int& status) {
-  CLI::App* command =
-      app.add_subcommand("check", "is a calibration still right? on new pictures, with a board or without");
+  CLI::App* command = app.add_subcommand(
+      "check", "is a calibration still right? on new pictures or live ones, with a board or without");
   auto flags = std::make_shared<Flags>();
   command->add_option("CALIBRATION", flags->calibration, "calibration.yaml")->required();
   command->add_option("FOLDER", flags->input.folder, "pairs, as for solve");
   command->add_option("--left", flags->input.left, "the left camera's pictures, in order");
   command->add_option("--right", flags->input.right, "the right camera's pictures, in the same order");
   command->add_option("--side-by-side", flags->input.side_by_side, "pictures with both halves");
+  add_feed_options(*command, flags->feed);
+  command->add_option("--pairs", flags->pairs, "live: how many pairs to look at")
+      ->check(CLI::Range(1, 200))
+      ->capture_default_str();
   command->add_option("--board", flags->board, "inner corners like 9x6, none for any scene, or auto")
       ->capture_default_str();
   command->add_option("--square", flags->square, "side of a square with its unit: checks lengths as well");

@@ -10,18 +10,14 @@ namespace stereod {
 /// Where the report says how far off depth is.
 inline constexpr std::array kReportedDepths_m = {0.5, 1.0, 2.0, 5.0, 10.0};
 
-/// What block matching itself is uncertain by on a textured surface, after rectification to the nearest
-/// pixel; measured on the synthetic scene.
-inline constexpr double kMatcherError_px = 0.3;
-
 /// What makes depth uncertain.
 struct DepthErrorSources {
-  double disparity_px = 0;  ///< of the calibration: root mean square, on pairs not calibrated with
+  double disparity_px = 0;  ///< one standard deviation
   double scale = 0;         ///< measured lengths / true lengths − 1
 };
 
 /// How far off, about (one standard deviation), the depth of a point `depth_m` > 0 away is: Z²/(f·B) for each
-/// pixel of disparity, of the calibration and of the matcher, and the error of scale.
+/// pixel of disparity, and the error of scale.
 double expected_depth_error_m(const Calibration& calibration, const DepthErrorSources& sources,
                               double depth_m);
 

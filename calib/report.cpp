@@ -97,10 +97,12 @@ std::string depth_section(const SolveResult& result, const Assessment& a) {
   std::string html =
       "<section><h2>How far off depth will be</h2><p>About one standard deviation, on a surface with "
       "texture: "
-      "the calibration is uncertain by " +
-      fixed(a.depth.disparity_px, 2) + " px of disparity and " + fixed(100 * a.depth.scale, 2) +
-      " % of scale on the pairs held back, the matcher by " + fixed(kMatcherError_px, 2) +
-      " px. A printed square of another size than was said changes all depths by the same part, and no "
+      "disparities are uncertain by " +
+      fixed(a.depth.disparity_px, 2) + " px, " +
+      (result.matched_error_px ? "as the matcher finds them on the boards of the pairs held back"
+                               : "guessed, because the matcher found too little on the boards held back") +
+      ", and lengths by " + fixed(100 * a.depth.scale, 2) +
+      " %. A printed square of another size than was said changes all depths by the same part, and no "
       "picture "
       "can tell.</p><div class=\"two\">" +
       depth_chart(result.calibration, a.depth) +

@@ -7,6 +7,7 @@
 
 #include "calib/board_search.h"
 #include "calib/errors.h"
+#include "calib/matched_boards.h"
 #include "calib/pair_consensus.h"
 #include "calib/progress.h"
 
@@ -70,11 +71,28 @@ class Solver {
     require_enough();
   }
 
+  // Those at evenly spread places of the list that was given, or the next good ones after them: so one bad
+  // pair more or less changes at most one of them.
   void split() {
-    const Indices places = evenly_spread(held_back_count(good_.size()), good_.size());
-    for (std::size_t place = 0; place < good_.size(); ++place) {
-      const bool held = std::find(places.begin(), places.end(), place) != places.end();
-      (held ? held_back_ : used_).push_back(good_[place]);
+    const std::size_t all = result_.pairs.size();
+    Indices held;
+    const auto is_free = [&](std::size_t i) {
+      return std::find(good_.begin(), good_.end(), i) != good_.end() &&
+             std::find(held.begin(), held.end(), i) == held.end();
+    };
+    const Indices places = evenly_spread(held_back_count(all), all);
+    for (const std::size_t i : places) {
+      if (is_free(i)) held.push_back(i);
+    }
+    for (const std::size_t place : places) {
+      if (held.size() >= held_back_count(good_.size())) break;
+      std::size_t i = place;
+      while (!is_free(i)) i = (i + 1) % all;
+      if (std::find(held.begin(), held.end(), place) == held.end()) held.push_back(i);
+    }
+    held.resize(std::min(held.size(), held_back_count(good_.size())));
+    for (const std::size_t i : good_) {
+      (std::find(held.begin(), held.end(), i) != held.end() ? held_back_ : used_).push_back(i);
     }
   }
 
@@ -100,7 +118,7 @@ class Solver {
     if (median(errors) <= limit) drop(held_back_, errors, limit, moved_reason);
   }
 
-  void finish() {
+  void finish(const std::vector<PicturePair>& pictures) {
     try {
       result_.calibration = rectified_pair(cameras_.left, cameras_.right, cameras_.pose);
     } catch (const std::invalid_argument& refused) {
@@ -122,6 +140,10 @@ class Solver {
       result_.worst_row_error_px = std::max(result_.worst_row_error_px, one.row_error_px);
     }
     mean.disparity_error_px = std::sqrt(mean.disparity_error_px);
+    MatchedBoards matched(result_.calibration, result_.board);
+    for (const std::size_t i : held_back_) matched.add(pictures[i], pose_of(result_.pairs[i].corners));
+    constexpr std::size_t kEnough = 500;
+    if (matched.points() >= kEnough) result_.matched_error_px = matched.deviation_px();
     CalibrationQuality& quality = result_.calibration.quality;
     quality.pairs_used = static_cast<int>(used_.size());
     quality.rms_px = rms_px_;
@@ -270,7 +292,7 @@ SolveResult solve(const std::vector<PicturePair>& pictures, const SolveOptions& 
   solver.split();
   solver.refine();
   progress.step();
-  solver.finish();
+  solver.finish(pictures);
   progress.step();
   return result;
 }

@@ -35,7 +35,8 @@ struct SolveResult {
   double left_rms_px = 0, right_rms_px = 0;  ///< each camera for itself
   PairCheck held_back;                       ///< mean over the pairs held back; the worst scale error
   double worst_row_error_px = 0;             ///< of a pair held back
-  std::vector<PairResult> pairs;             ///< in the order given
+  std::optional<double> matched_error_px;  ///< MatchedBoards, on the pairs held back; nothing: too few points
+  std::vector<PairResult> pairs;           ///< in the order given
 
   int count(PairFate fate) const;
 };

@@ -1,11 +1,16 @@
 #include "core/rectify_map.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
+
+#include "core/match/isa.h"
+#include "core/rectify/moves.h"
 
 namespace stereod {
 
@@ -13,6 +18,8 @@ namespace {
 
 constexpr std::int32_t kOutside = -1;
 constexpr std::ptrdiff_t kColorBytes = 3;
+constexpr int kBlended =
+    256;  // columns that are blended at once: their neighbours fit well in a first-level cache
 
 std::string text(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
 
@@ -20,6 +27,10 @@ void check(const SourceLayout& layout) {
   const Size size = layout.size;
   if (size.width < 1 || size.height < 1) {
     throw std::invalid_argument("an image of " + text(size) + " pixels cannot be rectified");
+  }
+  if (size.width > RunTable::kWidest) {
+    throw std::invalid_argument("an image of " + text(size) + " pixels cannot be rectified; at most " +
+                                std::to_string(RunTable::kWidest) + " columns are possible");
   }
   constexpr std::ptrdiff_t kLargest = std::numeric_limits<std::int32_t>::max() - kColorBytes;
   if (layout.pixel_stride < 1 || layout.pixel_stride > kLargest / size.width) {
@@ -43,21 +54,69 @@ Matrix3 inverse_of_projection(const RectifiedProjection& p) {
   return {{1 / p.fx, 0, -p.cx / p.fx, 0, 1 / p.fy, -p.cy / p.fy, 0, 0, 1}};
 }
 
-std::uint8_t checked(const std::uint8_t* source, std::int32_t offset) {
-  return offset < 0 ? std::uint8_t{0} : source[offset];
+SourceLayout checked(const SourceLayout& layout) {
+  check(layout);
+  return layout;
+}
+
+// Where the stretches end that rows are moved in. What is moved as whole runs may write beyond a stretch:
+// nearest, the last pixels of a row are therefore a stretch that goes to memory of its own first.
+std::vector<int> stretch_ends(int width, Interpolation interpolation) {
+  std::vector<int> ends;
+  if (interpolation == Interpolation::kBilinear) {
+    for (int end = kBlended; end < width; end += kBlended) ends.push_back(end);
+  } else if (width > kRunPixels) {
+    ends.push_back(width - kRunPixels);
+  }
+  ends.push_back(width);
+  return ends;
+}
+
+std::ptrdiff_t source_bytes(const SourceLayout& layout) {
+  const std::ptrdiff_t pixel = layout.pixel_stride < kColorBytes ? 1 : kColorBytes;
+  const std::ptrdiff_t row = (layout.size.width - 1) * layout.pixel_stride + pixel;
+  return (layout.size.height - 1) * layout.row_stride + std::min(row, layout.row_stride);
+}
+
+RunTable empty_table(const SourceLayout& layout, Interpolation interpolation) {
+  const int width = layout.size.width;
+  std::ptrdiff_t reach = 0;  // whole runs are only for pixels that lie close together
+  if (layout.pixel_stride <= kColorBytes &&
+      (width > kRunPixels || interpolation == Interpolation::kBilinear)) {
+    reach = kRunPixels * layout.pixel_stride;
+    if (interpolation == Interpolation::kBilinear) reach += layout.row_stride + layout.pixel_stride;
+  }
+  return {width, stretch_ends(width, interpolation), layout.pixel_stride, reach, source_bytes(layout)};
 }
 
 }  // namespace
 
-RectifyMap::RectifyMap(const SourceLayout& layout) : layout_(layout) {
-  check(layout);
-  offsets_ = AlignedBuffer<std::int32_t>(static_cast<std::size_t>(layout.size.width) *
-                                         static_cast<std::size_t>(layout.size.height));
-  rows_.resize(static_cast<std::size_t>(layout.size.height));
+std::string_view name_of(Interpolation interpolation) {
+  return interpolation == Interpolation::kNearest ? "nearest" : "bilinear";
 }
 
-RectifyMap::RectifyMap(const CameraCalibration& calibration, const SourceLayout& layout)
-    : RectifyMap(layout) {
+std::optional<Interpolation> parse_interpolation(std::string_view name) {
+  if (name == "nearest") return Interpolation::kNearest;
+  if (name == "bilinear") return Interpolation::kBilinear;
+  return std::nullopt;
+}
+
+RectifyMap::RectifyMap(const SourceLayout& layout, Interpolation interpolation)
+    : layout_(checked(layout)),
+      interpolation_(interpolation),
+      runs_(empty_table(layout, interpolation)),
+      blend_(blend_for(resolve_isa(Isa::kAuto))) {
+  if (interpolation_ == Interpolation::kBilinear) {
+    const auto pixels =
+        static_cast<std::size_t>(layout.size.width) * static_cast<std::size_t>(layout.size.height);
+    across_ = AlignedBuffer<std::uint8_t>(pixels);
+    down_ = AlignedBuffer<std::uint8_t>(pixels);
+  }
+}
+
+RectifyMap::RectifyMap(const CameraCalibration& calibration, const SourceLayout& layout,
+                       Interpolation interpolation)
+    : RectifyMap(layout, interpolation) {
   const CameraModel& camera = calibration.camera;
   if (camera.image != layout.size) {
     throw std::invalid_argument("the calibration is for " + text(camera.image) +
@@ -65,74 +124,117 @@ RectifyMap::RectifyMap(const CameraCalibration& calibration, const SourceLayout&
   }
   // From a rectified pixel to a direction of the camera. A rotation's inverse is its transpose.
   const Matrix3 to_camera = transposed(calibration.rotation) * inverse_of_projection(calibration.projection);
-  std::int32_t* offset = offsets_.data();
-  for (int y = 0; y < layout.size.height; ++y) {
-    for (int x = 0; x < layout.size.width; ++x, ++offset) {
-      const Vector3 direction = to_camera * Vector3{static_cast<double>(x), static_cast<double>(y), 1};
-      if (!(direction.z > 0)) {
-        *offset = kOutside;
-        continue;
-      }
-      const Point2 at =
-          camera.to_pixel(camera.distort({direction.x / direction.z, direction.y / direction.z}));
-      *offset = offset_of(at.x, at.y);
-    }
-  }
-  describe_rows();
+  fill([&](int x, int y) {
+    const Vector3 direction = to_camera * Vector3{static_cast<double>(x), static_cast<double>(y), 1};
+    constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+    if (!(direction.z > 0)) return Point2{kNowhere, kNowhere};
+    return camera.to_pixel(camera.distort({direction.x / direction.z, direction.y / direction.z}));
+  });
 }
 
 RectifyMap RectifyMap::identity(const SourceLayout& layout) {
-  RectifyMap map(layout);
-  std::int32_t* offset = map.offsets_.data();
-  for (int y = 0; y < layout.size.height; ++y) {
-    for (int x = 0; x < layout.size.width; ++x) *offset++ = map.offset_of(x, y);
-  }
-  map.describe_rows();
+  RectifyMap map(layout, Interpolation::kNearest);
+  map.fill([](int x, int y) { return Point2{static_cast<double>(x), static_cast<double>(y)}; });
   return map;
 }
 
-std::int32_t RectifyMap::offset_of(double source_x, double source_y) const {
-  const double x = std::nearbyint(source_x), y = std::nearbyint(source_y);
-  const bool inside =
-      x >= 0 && x < layout_.size.width && y >= 0 && y < layout_.size.height;  // false for a NaN
-  if (!inside) return kOutside;
-  return static_cast<std::int32_t>(static_cast<std::ptrdiff_t>(y) * layout_.row_stride +
-                                   static_cast<std::ptrdiff_t>(x) * layout_.pixel_stride);
+template <typename SourceOf>
+void RectifyMap::fill(SourceOf source_of) {
+  const int width = layout_.size.width;
+  std::vector<std::int32_t> offsets(static_cast<std::size_t>(width));
+  for (int y = 0; y < layout_.size.height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const Point2 at = source_of(x, y);
+      std::int32_t& offset = offsets[static_cast<std::size_t>(x)];
+      if (interpolation_ == Interpolation::kNearest) {
+        offset = nearest(at);
+      } else {
+        const auto pixel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+        offset = upper_left(at, across_[pixel], down_[pixel]);
+      }
+    }
+    runs_.append(offsets.data());
+  }
 }
 
-void RectifyMap::describe_rows() {
+std::int32_t RectifyMap::nearest(const Point2& at) const {
+  const double x = std::nearbyint(at.x), y = std::nearbyint(at.y);
+  const bool inside =
+      x >= 0 && x < layout_.size.width && y >= 0 && y < layout_.size.height;  // false for a NaN
+  return inside ? offset_to(static_cast<std::ptrdiff_t>(x), static_cast<std::ptrdiff_t>(y)) : kOutside;
+}
+
+std::int32_t RectifyMap::upper_left(const Point2& at, std::uint8_t& across, std::uint8_t& down) const {
+  const double x = std::nearbyint(at.x * kBlendSteps), y = std::nearbyint(at.y * kBlendSteps);
+  const int last_x = layout_.size.width - 1, last_y = layout_.size.height - 1;
+  if (!(x >= 0 && x <= last_x * kBlendSteps && y >= 0 && y <= last_y * kBlendSteps)) return kOutside;
+  // On the last column or row the pixel itself is the right or the lower one of the four.
+  const int left = std::min(static_cast<int>(x) / kBlendSteps, std::max(last_x - 1, 0));
+  const int top = std::min(static_cast<int>(y) / kBlendSteps, std::max(last_y - 1, 0));
+  across = static_cast<std::uint8_t>(4 * (static_cast<int>(x) - left * kBlendSteps));
+  down = static_cast<std::uint8_t>(static_cast<int>(y) - top * kBlendSteps);
+  return offset_to(left, top);
+}
+
+std::int32_t RectifyMap::offset_to(std::ptrdiff_t x, std::ptrdiff_t y) const {
+  return static_cast<std::int32_t>(y * layout_.row_stride + x * layout_.pixel_stride);
+}
+
+template <typename Mover>
+void RectifyMap::nearest_row(const std::uint8_t* source, int y, std::uint8_t* out,
+                             const Mover& mover) const noexcept {
   const int width = layout_.size.width;
-  const std::int32_t last_pixel = offset_of(width - 1, layout_.size.height - 1);
-  for (int y = 0; y < layout_.size.height; ++y) {
-    const std::int32_t* offsets = row_of_table(y);
-    Row& row = rows_[static_cast<std::size_t>(y)];
-    int run_first = 0;
-    for (int x = 0; x < width; ++x) {
-      if (offsets[x] < 0) run_first = x + 1;
-      if (x + 1 - run_first > row.inside_end - row.inside_first) {
-        row.inside_first = run_first;
-        row.inside_end = x + 1;
-      }
-      if (offsets[x] == last_pixel) row.has_last_pixel = true;
-    }
+  const RunTable::Row& row = runs_.row(y);
+  RowMoves<Mover> moves(runs_, row, source, mover);
+  if (row.kind == RunTable::Kind::kExactRuns || row.kind == RunTable::Kind::kOffsets) {
+    moves.next(0, width, out);
+    return;
+  }
+  constexpr std::size_t kLast = std::size_t{kRunPixels} * Mover::kBytes;
+  std::uint8_t last[2 * kLast];
+  const int first = width - kRunPixels;
+  moves.next(0, first, out);
+  moves.next(first, width, last);
+  std::memcpy(out + static_cast<std::ptrdiff_t>(first) * Mover::kBytes, last, kLast);
+}
+
+template <typename Mover>
+void RectifyMap::blended_row(const std::uint8_t* source, int y, std::uint8_t* out,
+                             const Mover& mover) const noexcept {
+  constexpr std::ptrdiff_t kPlane = kBlended + kRunPixels;
+  std::uint8_t planes[4 * kPlane];
+  const int width = layout_.size.width;
+  RowMoves<FourMover<Mover>> moves(runs_, runs_.row(y), source, {mover, right(), below(), kPlane});
+  const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(y) * width;
+  for (int first = 0; first < width; first += kBlended) {
+    const int end = std::min(first + kBlended, width);
+    moves.next(first, end, planes);
+    blend_({planes, planes + kPlane, planes + 2 * kPlane, planes + 3 * kPlane, across_.data() + row + first,
+            down_.data() + row + first},
+           end - first, out + first);
+  }
+}
+
+template <typename Mover>
+void RectifyMap::row(const std::uint8_t* source, int y, std::uint8_t* out,
+                     const Mover& mover) const noexcept {
+  if (interpolation_ == Interpolation::kNearest) {
+    nearest_row(source, y, out, mover);
+  } else {
+    blended_row(source, y, out, mover);
   }
 }
 
 void RectifyMap::grey_row(const std::uint8_t* source, int y, std::uint8_t* out) const noexcept {
-  const std::int32_t* offsets = row_of_table(y);
-  const Row row = rows_[static_cast<std::size_t>(y)];
-  int x = 0;
-  for (; x < row.inside_first; ++x) out[x] = checked(source, offsets[x]);
-  for (; x + 8 <= row.inside_end; x += 8) {
-    // All are read before one is written: `out` may, as far as the compiler knows, lie over the table.
-    const std::uint8_t p0 = source[offsets[x]], p1 = source[offsets[x + 1]];
-    const std::uint8_t p2 = source[offsets[x + 2]], p3 = source[offsets[x + 3]];
-    const std::uint8_t p4 = source[offsets[x + 4]], p5 = source[offsets[x + 5]];
-    const std::uint8_t p6 = source[offsets[x + 6]], p7 = source[offsets[x + 7]];
-    out[x] = p0, out[x + 1] = p1, out[x + 2] = p2, out[x + 3] = p3;
-    out[x + 4] = p4, out[x + 5] = p5, out[x + 6] = p6, out[x + 7] = p7;
+  switch (layout_.pixel_stride) {
+    case 1:
+      return row(source, y, out, GreyMover<1>{});
+    case 2:
+      return row(source, y, out, GreyMover<2>{});
+    default:
+      return row(source, y, out, SparseMover{layout_.pixel_stride});
   }
-  for (; x < layout_.size.width; ++x) out[x] = checked(source, offsets[x]);
 }
 
 void RectifyMap::grey_rows(const std::uint8_t* source, RowRange rows,
@@ -142,27 +244,10 @@ void RectifyMap::grey_rows(const std::uint8_t* source, RowRange rows,
 }
 
 void RectifyMap::color_rows(const std::uint8_t* source, RowRange rows, ImageView<Rgb> out) const noexcept {
-  assert(layout_.pixel_stride >= kColorBytes);
+  assert(layout_.pixel_stride >= kColorBytes && interpolation_ == Interpolation::kNearest);
   assert(out.size() == size() && rows.first >= 0 && rows.end <= out.height());
-  const int last = layout_.size.width - 1;
-  const auto move_bytes = [&](std::int32_t offset, std::uint8_t* to) {
-    if (offset < 0) {
-      std::memset(to, 0, kColorBytes);
-    } else {
-      std::memcpy(to, source + offset, kColorBytes);
-    }
-  };
   for (int y = rows.first; y < rows.end; ++y) {
-    const std::int32_t* offsets = row_of_table(y);
-    const Row row = rows_[static_cast<std::size_t>(y)];
-    auto* to = reinterpret_cast<std::uint8_t*>(out.row(y));
-    int x = 0;
-    for (; x < row.inside_first; ++x, to += kColorBytes) move_bytes(offsets[x], to);
-    if (!row.has_last_pixel) {
-      const int end = row.inside_end < last ? row.inside_end : last;
-      for (; x < end; ++x, to += kColorBytes) std::memcpy(to, source + offsets[x], 4);
-    }
-    for (; x <= last; ++x, to += kColorBytes) move_bytes(offsets[x], to);
+    nearest_row(source, y, reinterpret_cast<std::uint8_t*>(out.row(y)), ColorMover{layout_.pixel_stride});
   }
 }
 

@@ -4,54 +4,89 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 namespace stereod {
 
 namespace {
 
-// The part of the plane z = 1, in the rectified camera, that every pixel of which the source has.
+// A rectangle of the plane z = 1 in the rectified camera.
 struct Field {
-  double left = -std::numeric_limits<double>::infinity(), right = std::numeric_limits<double>::infinity();
-  double top = -std::numeric_limits<double>::infinity(), bottom = std::numeric_limits<double>::infinity();
+  double left, right, top, bottom;
 };
 
-// Cuts the field by what lies beyond one camera's border.
-void cut(Field& field, const CameraModel& camera, const Matrix3& rotation) {
-  constexpr int kSteps = 32;
-  const double last_x = camera.image.width - 1, last_y = camera.image.height - 1;
-  const auto direction = [&](double x, double y) -> std::optional<Point2> {
-    const auto straight = camera.undistort(camera.from_pixel({x, y}));
-    if (!straight) return std::nullopt;  // looks so far aside that it limits nothing
-    const Vector3 ray = rotation * Vector3{straight->x, straight->y, 1};
-    if (!(ray.z > 0)) return std::nullopt;
-    return Point2{ray.x / ray.z, ray.y / ray.z};
-  };
-  for (int step = 0; step <= kSteps; ++step) {
-    const double x = last_x * step / kSteps, y = last_y * step / kSteps;
-    if (const auto p = direction(0, y)) field.left = std::max(field.left, p->x);
-    if (const auto p = direction(last_x, y)) field.right = std::min(field.right, p->x);
-    if (const auto p = direction(x, 0)) field.top = std::max(field.top, p->y);
-    if (const auto p = direction(x, last_y)) field.bottom = std::min(field.bottom, p->y);
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// What a camera's border looks like from the rectified camera.
+struct Border {
+  Field inner{-kInfinity, kInfinity, -kInfinity, kInfinity};  // lies within it everywhere
+  Field outer{kInfinity, -kInfinity, kInfinity, -kInfinity};  // lies beyond it everywhere
+
+  void cover(const CameraModel& camera, const Matrix3& rotation) {
+    constexpr int kSteps = 128;  // on a side; it bends by less than 1/100 px between two of them
+    const double last_x = camera.image.width - 1, last_y = camera.image.height - 1;
+    const auto direction = [&](double x, double y) -> std::optional<Point2> {
+      const auto straight = camera.undistort(camera.from_pixel({x, y}));
+      if (!straight) return std::nullopt;  // looks so far aside that it limits nothing
+      const Vector3 ray = rotation * Vector3{straight->x, straight->y, 1};
+      if (!(ray.z > 0)) return std::nullopt;
+      const Point2 p{ray.x / ray.z, ray.y / ray.z};
+      outer = {std::min(outer.left, p.x), std::max(outer.right, p.x), std::min(outer.top, p.y),
+               std::max(outer.bottom, p.y)};
+      return p;
+    };
+    for (int step = 0; step <= kSteps; ++step) {
+      const double x = last_x * step / kSteps, y = last_y * step / kSteps;
+      if (const auto p = direction(0, y)) inner.left = std::max(inner.left, p->x);
+      if (const auto p = direction(last_x, y)) inner.right = std::min(inner.right, p->x);
+      if (const auto p = direction(x, 0)) inner.top = std::max(inner.top, p->y);
+      if (const auto p = direction(x, last_y)) inner.bottom = std::min(inner.bottom, p->y);
+    }
   }
-}
+};
 
-// The widest the field may be for a rectified focal length of half the cameras' own.
-void limit(Field& field, const CameraModel& camera) {
+// The widest the field may be for a rectified focal length of half the camera's own.
+Field limited(const Field& field, const CameraModel& camera) {
   const double reach_x = camera.image.width / camera.fx, reach_y = camera.image.height / camera.fy;
-  field.left = std::max(field.left, -reach_x), field.right = std::min(field.right, reach_x);
-  field.top = std::max(field.top, -reach_y), field.bottom = std::min(field.bottom, reach_y);
+  return {std::max(field.left, -reach_x), std::min(field.right, reach_x), std::max(field.top, -reach_y),
+          std::min(field.bottom, reach_y)};
 }
 
-RectifiedProjection projection_of(const Field& field, Size image) {
+// The projection of square pixels whose image has the field's middle in its own, and is filled by the field,
+// or shows all of it.
+RectifiedProjection projection_of(const Field& field, Size image, bool shows_all) {
   const double across = field.right - field.left, down = field.bottom - field.top;
   if (!(across > 0 && down > 0)) {
     throw std::invalid_argument(
         "the two cameras see nothing in common once they are turned to look in one direction");
   }
-  const double f = std::max((image.width - 1) / across, (image.height - 1) / down);
+  const double to_width = (image.width - 1) / across, to_height = (image.height - 1) / down;
+  const double f = shows_all ? std::min(to_width, to_height) : std::max(to_width, to_height);
   return {f, f, (image.width - 1) / 2.0 - f * (field.left + field.right) / 2,
           (image.height - 1) / 2.0 - f * (field.top + field.bottom) / 2};
+}
+
+// What lies between two projections with square pixels: the borders of what they show move in equal steps.
+RectifiedProjection between(const RectifiedProjection& a, const RectifiedProjection& b, double part) {
+  const auto mixed = [part](double of_a, double of_b) { return of_a + part * (of_b - of_a); };
+  const double f = 1 / mixed(1 / a.fx, 1 / b.fx);
+  return {f, f, f * mixed(a.cx / a.fx, b.cx / b.fx), f * mixed(a.cy / a.fy, b.cy / b.fy)};
+}
+
+// For cameras and rotations that are set.
+void set_projection(Calibration& c, double zoom) {
+  Border border;
+  for (const CameraCalibration* camera : {&c.left, &c.right}) border.cover(camera->camera, camera->rotation);
+  for (const CameraCalibration* camera : {&c.left, &c.right}) {
+    if (camera->camera.lens != LensModel::kFisheye) continue;
+    border.inner = limited(border.inner, camera->camera);
+    border.outer = limited(border.outer, camera->camera);
+  }
+  RectifiedProjection projection = projection_of(border.inner, c.image, false);
+  if (zoom > 0) projection = between(projection, projection_of(border.outer, c.image, true), zoom);
+  c.left.projection = c.right.projection = projection;
+  c.id = calibration_id(c);
 }
 
 double length(const Vector3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
@@ -102,14 +137,14 @@ Calibration rectified_pair(const CameraModel& left, const CameraModel& right, co
   result.image = left.image;
   result.left = {left, align * half_left, {}};
   result.right = {right, align * half_right, {}};
-  Field field;
-  for (CameraCalibration* c : {&result.left, &result.right}) {
-    cut(field, c->camera, c->rotation);
-    if (c->camera.lens == LensModel::kFisheye) limit(field, c->camera);
-  }
-  result.left.projection = result.right.projection = projection_of(field, result.image);
   result.baseline_m = baseline;
-  result.id = calibration_id(result);
+  set_projection(result, 0);
+  return result;
+}
+
+Calibration zoomed(const Calibration& calibration, double zoom) {
+  Calibration result = calibration;
+  set_projection(result, zoom);
   return result;
 }
 

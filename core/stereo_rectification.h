@@ -25,7 +25,14 @@ Vector3 rotation_vector(const Matrix3& rotation);
 /// side, left one left, turned less than a right angle to each other.
 Calibration rectified_pair(const CameraModel& left, const CameraModel& right, const StereoPose& pose);
 
-/// The inverse: how the right camera of a rectified pair stands to the left one.
+/// The same cameras and rotations, but another part of what they see in the rectified images: `zoom` 0 only
+/// what both cameras have pixels for, so that every rectified pixel has a source, as rectified_pair() has it;
+/// 1 all pixels of both; between, the borders move in equal steps. Both images get the same projection, with
+/// square pixels, and the result a new id. Throws std::invalid_argument with a sentence where the two cameras
+/// see nothing in common.
+Calibration zoomed(const Calibration& calibration, double zoom);
+
+/// The inverse of rectified_pair(): how the right camera of a rectified pair stands to the left one.
 StereoPose stereo_pose(const Calibration& calibration);
 
 }  // namespace stereod

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the tests need, builds, and runs them. With --all also: the formatting, core/ on its own, the address
-# and thread sanitizers, other CPUs by emulation, and the demo. Ends with one line that sums up.
+# and thread sanitizers, other CPUs by emulation, a real kernel in a virtual machine, and the demo. Ends with one line that sums up.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -83,6 +83,7 @@ fi
 
 suite tests preset release
 if [[ ${1:-} == --all ]]; then
+  suite virtual-machine bash tests/vm/run.sh --bin build/release/bin
   suite format check_format
   suite core-only preset core
   suite address-sanitizer preset asan

@@ -3,8 +3,16 @@
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR i686)
 set(CMAKE_CXX_COMPILER i686-linux-gnu-g++)
-# The search path keeps out /lib32, where another glibc may lie; with a wrong one the first thread hangs.
-set(CMAKE_CROSSCOMPILING_EMULATOR
-  qemu-i386 -cpu n270 -L /usr/i686-linux-gnu -E LD_LIBRARY_PATH=/usr/i686-linux-gnu/lib)
+set(CMAKE_LIBRARY_ARCHITECTURE i386-linux-gnu)
+set(STEREOD_DEBIAN_ARCHITECTURE i386)
+include(${CMAKE_CURRENT_LIST_DIR}/sysroot.cmake)
 # The median's vectors stay inside one file, so how they would be passed without SSE does not matter.
 set(CMAKE_CXX_FLAGS_INIT "-Wno-psabi")
+if(CMAKE_SYSROOT)
+  set(CMAKE_CROSSCOMPILING_EMULATOR
+    qemu-i386 -cpu n270 -L ${CMAKE_SYSROOT} -E LD_LIBRARY_PATH=${CMAKE_SYSROOT}/lib/i386-linux-gnu:${CMAKE_SYSROOT}/usr/lib/i386-linux-gnu)
+else()
+  # The search path keeps out /lib32, where another glibc may lie; with a wrong one the first thread hangs.
+  set(CMAKE_CROSSCOMPILING_EMULATOR
+    qemu-i386 -cpu n270 -L /usr/i686-linux-gnu -E LD_LIBRARY_PATH=/usr/i686-linux-gnu/lib)
+endif()

@@ -13,7 +13,7 @@ build_packages=(
   libv4l-dev                   # formats of cameras that are not read directly
   iproute2 util-linux          # ip and unshare: the demo's and the tests' own network
 )
-test_packages=(libgtest-dev libgmock-dev libopencv-dev poppler-utils libcpp-httplib-dev nftables)
+test_packages=(libgtest-dev libgmock-dev libopencv-dev poppler-utils libcpp-httplib-dev nftables chromium)
 # The Aloe photographs. Some mirrors do without documentation, and so can we.
 optional_packages=(opencv-doc)
 emulation_packages=(

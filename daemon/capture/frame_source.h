@@ -25,7 +25,7 @@ struct LumaView {
 struct Frame {
   LumaView luma;
   std::int64_t captured_ns = 0;  ///< CLOCK_MONOTONIC at the start of exposure
-  std::uint32_t sequence = 0;    ///< the camera's own count; gaps are frames lost before us
+  std::uint32_t sequence = 0;    ///< the camera's own count; a gap is frames that were lost or dropped
 };
 
 /// Who takes a buffer back when the last user of a frame is done.
@@ -86,6 +86,7 @@ struct SourceReport {
   std::string last_fault;  ///< the last reason it did not stream for
   std::int64_t last_fault_ns = 0;  ///< when, CLOCK_MONOTONIC; 0: never
   std::int64_t reconnects = 0;     ///< times it streamed again
+  std::int64_t sequence_gaps = 0;  ///< frames that the camera counted and that never came here
   std::int64_t decode_errors = 0;  ///< frames dropped: JPEGs that could not be decoded
   std::int64_t incomplete = 0;     ///< frames dropped: empty, too short, or marked as damaged by the driver
   std::int64_t bad_stamps = 0;     ///< frames dropped: stamped in a time that cannot be

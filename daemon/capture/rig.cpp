@@ -3,8 +3,10 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
+#include "core/stereo_rectification.h"
 #include "daemon/capture/replay_source.h"
 #include "daemon/capture/synthetic_source.h"
 #include "daemon/config/calibration_file.h"
@@ -73,13 +75,22 @@ Rig make_v4l2_rig(const CamerasConfig& cameras, std::unique_ptr<VideoSystem> sys
 }
 
 std::optional<Calibration> calibration_for(const Config& config, const Rig& rig) {
-  if (config.calibration.empty()) return rig.scene_calibration;
-  Calibration calibration = read_calibration(config.calibration);
+  std::optional<Calibration> calibration = rig.scene_calibration;
+  if (!config.calibration.empty()) calibration = read_calibration(config.calibration);
   const Size size = rig.left->frame_size();
-  if (calibration.image == size) return calibration;
-  throw FileError(config.calibration.string() + ": the calibration is for images of " +
-                  in_words(calibration.image) + ", the cameras give " + in_words(size) +
-                  "; calibrate at that size or set the cameras to the calibration's");
+  if (calibration && calibration->image != size) {
+    throw FileError(config.calibration.string() + ": the calibration is for images of " +
+                    in_words(calibration->image) + ", the cameras give " + in_words(size) +
+                    "; calibrate at that size or set the cameras to the calibration's");
+  }
+  if (calibration && config.rectify.zoom) {
+    try {
+      calibration = zoomed(*calibration, *config.rectify.zoom);
+    } catch (const std::invalid_argument& refused) {
+      throw FileError(config.calibration.string() + ": " + refused.what());
+    }
+  }
+  return calibration;
 }
 
 Rig open_rig(const Config& config) {

@@ -62,6 +62,13 @@ void read_cameras(YamlSection section, CamerasConfig& cameras) {
   section.finish();
 }
 
+void read_rectify(YamlSection section, RectifyConfig& rectify) {
+  rectify.interpolation = section.choice<Interpolation>("interpolation", rectify.interpolation,
+                                                        "nearest and bilinear", parse_interpolation);
+  if (section.has("zoom")) rectify.zoom = section.number("zoom", 0, 0, 1);
+  section.finish();
+}
+
 void read_matcher(YamlSection section, MatcherOptions& options) {
   const std::string preset = section.text("preset", "robust");
   const auto chosen = matcher_preset(preset);
@@ -203,6 +210,7 @@ Config read_config(const std::filesystem::path& file) {
   Config config;
   read_cameras(root.required_section("cameras"), config.cameras);
   config.calibration = root.file_name("calibration");
+  read_rectify(root.section("rectify"), config.rectify);
   read_matcher(root.section("matcher"), config.matcher);
   config.workers = root.integer("workers", config.workers, 0, 64);
   read_scheduling(root.section("scheduling"), config.scheduling);

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/match/matcher_options.h"
+#include "core/rectify_map.h"
 
 namespace stereod {
 
@@ -66,6 +68,11 @@ struct CamerasConfig {
   friend bool operator==(const CamerasConfig&, const CamerasConfig&) = default;
 };
 
+struct RectifyConfig {
+  Interpolation interpolation = Interpolation::kNearest;
+  std::optional<double> zoom;  ///< see zoomed(); nothing: as the calibration has it
+};
+
 struct LcmConfig {
   std::string url;                ///< empty: LCM_DEFAULT_URL, or this machine only
   std::string prefix = "STEREO";  ///< of every channel
@@ -84,6 +91,7 @@ struct SchedulingConfig {
 struct Config {
   CamerasConfig cameras;
   std::filesystem::path calibration;  ///< empty: the synthetic scene's own, or none
+  RectifyConfig rectify;
   MatcherOptions matcher = *matcher_preset("robust");
   int workers = 0;  ///< 0: one for each core
   SchedulingConfig scheduling;

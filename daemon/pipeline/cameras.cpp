@@ -7,7 +7,7 @@ namespace {
 
 void add_counts(CameraFigures& figures, const CameraFigures& before) {
   figures.frames += before.frames;
-  figures.sequence_gaps += before.sequence_gaps;
+  figures.report.sequence_gaps += before.report.sequence_gaps;
   figures.report.reconnects += before.report.reconnects;
   figures.report.decode_errors += before.report.decode_errors;
   figures.report.incomplete += before.report.incomplete;
@@ -24,7 +24,7 @@ void add_counts(PairingCounts& counts, const PairingCounts& before) {
 }
 
 CameraFigures figures_of(const CaptureThread& thread) {
-  return {thread.report(), thread.frames(), thread.sequence_gaps(), thread.mean_brightness()};
+  return {thread.report(), thread.frames(), thread.mean_brightness()};
 }
 
 }  // namespace

@@ -14,7 +14,6 @@ namespace stereod {
 struct CameraFigures {
   SourceReport report;
   std::int64_t frames = 0;
-  std::int64_t sequence_gaps = 0;
   double mean_brightness = 0;  ///< of the latest frame, 0…255
 };
 

@@ -38,7 +38,6 @@ void CaptureThread::note_interruption() noexcept {
 
 void CaptureThread::run() noexcept {
   constexpr std::chrono::milliseconds kTimeout{100};
-  std::uint32_t expected = 0;
   while (!stopping_) {
     FrameLease lease = source_.next(kTimeout);
     if (!lease) {
@@ -49,10 +48,6 @@ void CaptureThread::run() noexcept {
     }
     if (std::exchange(interrupted_, false)) desk_.set_frame_time(side_, source_.frame_time_ns());
     mean_brightness_ = brightness_of(lease.frame().luma);
-    const std::uint32_t sequence = lease.frame().sequence;
-    // A sequence that goes back is a camera that began anew, not a loss.
-    if (frames_ > 0 && sequence > expected) sequence_gaps_ += sequence - expected;
-    expected = sequence + 1;
     ++frames_;
     desk_.add(side_, std::move(lease));
   }

@@ -26,7 +26,6 @@ class CaptureThread {
   void stop() noexcept;
 
   std::int64_t frames() const noexcept { return frames_; }
-  std::int64_t sequence_gaps() const noexcept { return sequence_gaps_; }
   double mean_brightness() const noexcept { return mean_brightness_; }
   SourceReport report() const { return source_.report(); }
 
@@ -39,7 +38,6 @@ class CaptureThread {
   PairingDesk& desk_;
   std::atomic<bool> stopping_{false};
   std::atomic<std::int64_t> frames_{0};
-  std::atomic<std::int64_t> sequence_gaps_{0};
   std::atomic<double> mean_brightness_{0};
   bool interrupted_ = true;  // no frame came since the camera last stopped streaming
   std::thread thread_;

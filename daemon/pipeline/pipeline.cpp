@@ -59,7 +59,8 @@ Pipeline::Pipeline(const Config& config, std::optional<Calibration> calibration,
       size_(cameras_->rig().left->frame_size()),
       matcher_description_(describe(config)),
       publisher_(bus, wire_format(config), size_),
-      pool_(config.worker_count()) {
+      pool_(config.worker_count()),
+      alignment_monitor_(size_, config.matcher.min_disparity, config.matcher.disparities) {
   for (int worker = 0; worker < pool_.workers(); ++worker) workers_.emplace_back(config.matcher, size_);
   if (config.matcher.speckle_size > 0) speckle_filter_.emplace(size_);
   if (config.lcm.raw_images) {
@@ -113,7 +114,7 @@ void Pipeline::stop() noexcept {
 std::int64_t Pipeline::frames_published() const noexcept { return frames_before_ + publisher_.frames(); }
 
 PipelineFigures Pipeline::take_figures() {
-  PipelineFigures figures{cameras_->figures(), publisher_.take_figures()};
+  PipelineFigures figures{cameras_->figures(), publisher_.take_figures(), alignment_monitor_.figures()};
   figures.published.frames += frames_before_;
   figures.published.messages_refused += refused_before_;
   if (raw_publisher_) figures.published.messages_refused += raw_publisher_->refused();
@@ -153,17 +154,23 @@ void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
   facts.filter_ns = 0;
   if (speckle_filter_) filter_frame(output);
   facts.matched_ns = monotonic_ns();
+  const std::int64_t match_ns = facts.matched_ns - facts.started_ns;
   publisher_.frame_final(output);
-  if (raw_publisher_) raw_publisher_->offer(pair);  // after what is urgent
+  // After what is urgent.
+  alignment_monitor_.frame_matched({*left_map_, *left_mask_, pair.left.frame().luma.data},
+                                   {*right_map_, *right_mask_, pair.right.frame().luma.data}, match_ns);
+  if (raw_publisher_) raw_publisher_->offer(pair);
 }
 
 // The tables are made when the first frame shows how its pixels lie in memory, and again if that ever
 // changes.
 void Pipeline::prepare_maps(const SourceLayout& left, const SourceLayout& right) {
-  const auto prepare = [](std::optional<RectifyMap>& map, std::optional<ValidityMask>& mask,
-                          const SourceLayout& layout, const CameraCalibration* camera) {
+  const Interpolation interpolation = config_.rectify.interpolation;
+  const auto prepare = [interpolation](std::optional<RectifyMap>& map, std::optional<ValidityMask>& mask,
+                                       const SourceLayout& layout, const CameraCalibration* camera) {
     if (map && map->layout() == layout) return;
-    map.emplace(camera != nullptr ? RectifyMap(*camera, layout) : RectifyMap::identity(layout));
+    map.emplace(camera != nullptr ? RectifyMap(*camera, layout, interpolation)
+                                  : RectifyMap::identity(layout));
     mask.emplace(map->mask());
   };
   prepare(left_map_, left_mask_, left, calibration_ ? &calibration_->left : nullptr);

@@ -13,6 +13,7 @@
 #include "core/worker_pool.h"
 #include "daemon/capture/rig.h"
 #include "daemon/config/config.h"
+#include "daemon/pipeline/alignment_monitor.h"
 #include "daemon/pipeline/band_worker.h"
 #include "daemon/pipeline/cameras.h"
 #include "daemon/pipeline/frame_publisher.h"
@@ -23,6 +24,7 @@ namespace stereod {
 /// What the pipeline did; see PublisherFigures for what "recent" means.
 struct PipelineFigures : CamerasFigures {
   PublisherFigures published;
+  AlignmentFigures alignment;
 };
 
 /// Throws what the constructor of Pipeline would for frames of this size: std::invalid_argument with a
@@ -96,6 +98,7 @@ class Pipeline {
   std::optional<ValidityMask> left_mask_, right_mask_;  // of the maps
   mutable std::mutex scheduling_mutex_;
   std::string scheduling_problem_;
+  AlignmentMonitor alignment_monitor_;
   std::int64_t next_frame_ = 0;
   std::int64_t frames_before_ = 0,
                refused_before_ = 0;  // published by, and refused to, those taken over from

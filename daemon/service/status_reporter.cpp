@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "daemon/pipeline/clocks.h"
@@ -34,6 +35,28 @@ std::int64_t patience_for(double fps) {
 
 }  // namespace
 
+std::string KnockDetector::judge(const AlignmentFigures& figures) {
+  constexpr double kApart_px = 1, kTogether_px = 0.7;
+  constexpr std::size_t kEnough = 100;
+  constexpr double kHardlyAny = 0.01;
+  constexpr const char* kRemedy =
+      "; was a camera knocked? 'stereo-calibrate check' measures it, if so calibrate again";
+  if (figures.misalignment) {
+    apart_ = figures.misalignment->row_error_px > (apart_ ? kTogether_px : kApart_px);
+    if (apart_)
+      return std::string("rows of the rectified pictures do not lie side by side any more") + kRemedy;
+  }
+  if (figures.misalignment) was_found_ = true;
+  if (was_found_ && figures.searched >= kEnough && figures.found_share < kHardlyAny) {
+    return std::string(
+               "hardly anything of the left picture is found in the right one any more; is something before "
+               "a "
+               "lens or very near") +
+           kRemedy;
+  }
+  return {};
+}
+
 ServiceState judge_state(const Activity& activity, bool calibrated) {
   const std::string missing = missing_cameras(activity);
   if (!missing.empty()) return {"waiting_for_cameras", missing};
@@ -49,6 +72,7 @@ ServiceState judge_state(const Activity& activity, bool calibrated) {
   if (activity.refused) return {"degraded", "the network refused messages"};
   if (!calibrated)
     return {"uncalibrated", "no calibration is configured, so the images are matched unrectified"};
+  if (!activity.knocked.empty()) return {"degraded", activity.knocked};
   return {"streaming", ""};
 }
 
@@ -70,6 +94,7 @@ void StatusReporter::follow(Pipeline& pipeline, MessageBus& bus) {
   status_channel_ = config.lcm.prefix + "_STATUS";
   camera_info_channel_ = config.lcm.prefix + "_CAMERA_INFO";
   patience_ns_ = patience_for(config.cameras.fps);
+  knock_detector_ = {};  // it may be another calibration
   status_.matcher = pipeline.matcher_description();
   status_.left.device = pipeline.rig().left_name.substr(0, kLongestText);
   status_.right.device = pipeline.rig().right_name.substr(0, kLongestText);
@@ -80,7 +105,8 @@ const status_t& StatusReporter::report() {
   const std::int64_t now_ns = monotonic_ns();
   const double seconds = std::max(1e-3, static_cast<double>(now_ns - before_ns_) * 1e-9);
   const double cpu_s = process_cpu_seconds();
-  const Activity activity = recent_activity(now, now_ns);
+  Activity activity = recent_activity(now, now_ns);
+  activity.knocked = knock_detector_.judge(now.alignment);
   const bool calibrated = pipeline_->calibration().has_value();
   const ServiceState state = std::exchange(first_, false)
                                  ? ServiceState{"starting", "waiting for the first frames"}
@@ -90,6 +116,7 @@ const status_t& StatusReporter::report() {
     logged_ = state;
   }
 
+  const auto& misalignment = now.alignment.misalignment;
   status_.utime = wall_us();
   status_.state = state.name;
   status_.reason = state.reason;
@@ -97,6 +124,12 @@ const status_t& StatusReporter::report() {
   if (state.name == "waiting_for_cameras") {
     if (!activity.left_frames) add_reason(status_.reason, now.left.report);
     if (!activity.right_frames) add_reason(status_.reason, now.right.report);
+  }
+  if (!activity.knocked.empty() && state.reason == activity.knocked && misalignment) {
+    char figure[64];
+    std::snprintf(figure, sizeof figure, " (now %.1f px apart, by %zu points)", misalignment->row_error_px,
+                  misalignment->points);
+    status_.reason += figure;
   }
   if (!remark_.empty()) {
     if (!status_.reason.empty()) status_.reason += "; ";
@@ -118,6 +151,9 @@ const status_t& StatusReporter::report() {
   status_.latency_ms_p95 = now.published.latency_ms.percentile(0.95);
   status_.latency_ms_max = now.published.latency_ms.percentile(1);
   status_.match_ms_median = now.published.match_ms.percentile(0.5);
+  status_.row_error_px = misalignment ? misalignment->row_error_px : 0;
+  status_.row_error_points = misalignment ? static_cast<std::int32_t>(misalignment->points) : 0;
+  status_.row_check_percent = 100 * now.alignment.cost_share;
   status_.valid_fraction = now.published.valid_fraction;
   status_.cpu_percent = 100 * (cpu_s - before_cpu_s_) / seconds;
   status_.rss_mb = process_rss_mb();
@@ -168,9 +204,9 @@ void StatusReporter::fill_camera(camera_status_t& message, const CameraFigures& 
   message.frames_bad_stamp = report.bad_stamps;
   message.frames_superseded = report.superseded;
   message.reconnects = report.reconnects;
+  message.sequence_gaps = report.sequence_gaps;
   message.fps = static_cast<double>(now.frames - before.frames) / seconds;
   message.frames = now.frames;
-  message.sequence_gaps = now.sequence_gaps;
 }
 
 void StatusReporter::publish_camera_info() {

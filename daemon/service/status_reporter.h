@@ -23,7 +23,20 @@ struct Activity {
   bool left_frames = false, right_frames = false;
   bool pairs = false;
   bool published = false;
-  bool refused = false;  ///< by the network
+  bool refused = false;      ///< by the network
+  std::string knocked = {};  ///< why the calibration does not fit the cameras any more; empty if it does
+};
+
+/// Says when a calibration no longer fits: rows more than a pixel apart, until they are within 0.7 px again;
+/// or hardly any point of the left picture found in the right one, after it has been otherwise.
+class KnockDetector {
+ public:
+  /// The figures of one moment; what is wrong, as a sentence without figures, or empty.
+  std::string judge(const AlignmentFigures& figures);
+
+ private:
+  bool apart_ = false;
+  bool was_found_ = false;
 };
 
 ServiceState judge_state(const Activity& activity, bool calibrated);
@@ -59,6 +72,7 @@ class StatusReporter {
     std::int64_t left = 0, right = 0, pair = 0, publication = 0;
   } last_ns_;
   std::int64_t patience_ns_ = 0;  // how long nothing may happen before it counts as missing
+  KnockDetector knock_detector_;
   bool first_ = true;
   std::string remark_;
   ServiceState logged_;

@@ -7,7 +7,6 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/config/config.h"
 #include "daemon/imagefile/disparity_file.h"
 
 namespace stereod {
@@ -21,7 +20,8 @@ struct Flags {
   std::vector<std::string> rectified;
   std::optional<std::string> preset, implementation, isa, cost;
   std::optional<int> disparities, min_disparity, window, threads, repeat;
-  std::optional<double> gt_scale;
+  std::optional<std::string> interpolation;
+  std::optional<double> gt_scale, zoom;
 };
 
 void declare(CLI::App& app, Flags& flags) {
@@ -30,7 +30,8 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("-o,--output", flags.output, "disparities: .pfm (Middlebury) or .png (16 bit, KITTI)");
   app.add_option("--color", flags.color, "a picture for a person, with a scale: .png");
   app.add_option("--preset", flags.preset, "matcher settings: " + std::string(kMatcherPresets));
-  app.add_option("--config", flags.config, "take the matcher settings from a stereod.yaml");
+  app.add_option("--config", flags.config,
+                 "take the settings of matcher and rectification from a stereod.yaml");
   app.add_option("--disparities", flags.disparities, "how many disparities are searched, 1 to 256");
   app.add_option("--min-disparity", flags.min_disparity, "the first of them, in pixels");
   app.add_option("--window", flags.window, "side of the support window, odd, 3 to 31 pixels");
@@ -39,6 +40,9 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--isa", flags.isa, "instruction set for simd: auto, scalar, ssse3, sse41, avx2 or neon");
   app.add_option("--threads", flags.threads, "1 to 256; default: one for each CPU");
   app.add_option("--calibration", flags.calibration, "rectify both pictures first, by this calibration.yaml");
+  app.add_option("--interpolation", flags.interpolation, "with --calibration: nearest (default) or bilinear");
+  app.add_option("--zoom", flags.zoom,
+                 "with --calibration: from 0, only what both cameras have pixels for, to 1, all of it");
   app.add_option("--rectified", flags.rectified, "write the two pictures that were matched: .png .png")
       ->expected(2);
   app.add_option("--ground-truth", flags.ground_truth, "compare with the true disparities: picture or .pfm");
@@ -54,8 +58,8 @@ Value named(const std::optional<Value>& value, const std::string& name, const ch
   throw UsageError(std::string(flag) + ": '" + name + "' is not known; allowed are " + allowed);
 }
 
-MatcherOptions matcher_options(const Flags& flags) {
-  MatcherOptions options = flags.config ? read_config(*flags.config).matcher : Config{}.matcher;
+MatcherOptions matcher_options(const Flags& flags, const Config& config) {
+  MatcherOptions options = config.matcher;
   if (flags.preset) {
     options = named(matcher_preset(*flags.preset), *flags.preset, "--preset", std::string(kMatcherPresets));
   }
@@ -72,6 +76,23 @@ MatcherOptions matcher_options(const Flags& flags) {
   }
   if (const std::optional<std::string> problem = problem_with(options)) throw UsageError(*problem);
   return options;
+}
+
+RectifyConfig rectify_options(const Flags& flags, const Config& config) {
+  RectifyConfig rectify = config.rectify;
+  if (!flags.calibration && (flags.interpolation || flags.zoom)) {
+    throw UsageError(std::string(flags.zoom ? "--zoom" : "--interpolation") +
+                     ": belongs to --calibration, which is not there");
+  }
+  if (flags.interpolation) {
+    rectify.interpolation = named(parse_interpolation(*flags.interpolation), *flags.interpolation,
+                                  "--interpolation", "nearest, bilinear");
+  }
+  if (flags.zoom) rectify.zoom = flags.zoom;
+  if (rectify.zoom && !(*rectify.zoom >= 0 && *rectify.zoom <= 1)) {
+    throw UsageError("--zoom: 0 to 1 is allowed");
+  }
+  return rectify;
 }
 
 int in_range(int value, int least, int most, const char* flag) {
@@ -111,7 +132,10 @@ MatchArguments checked(const Flags& flags) {
   if (flags.repeat) arguments.repeat = in_range(*flags.repeat, 1, 1'000'000, "--repeat");
   const int cpus = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 256);
   arguments.threads = in_range(flags.threads.value_or(cpus), 1, 256, "--threads");
-  arguments.matcher = matcher_options(flags);
+  Config config;
+  if (flags.config) config = read_config(*flags.config);
+  arguments.matcher = matcher_options(flags, config);
+  arguments.rectify = rectify_options(flags, config);
   return arguments;
 }
 

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "core/match/matcher_options.h"
+#include "daemon/config/config.h"
 
 namespace stereod {
 
@@ -31,6 +32,7 @@ struct MatchArguments {
   std::optional<std::filesystem::path> color;
   std::optional<RectifiedFiles> rectified;
   std::optional<std::filesystem::path> calibration;
+  RectifyConfig rectify;  ///< used with a calibration
   std::optional<std::filesystem::path> ground_truth;
   double ground_truth_scale = 1;
 };
@@ -40,9 +42,9 @@ struct TextToPrint {
   std::string text;
 };
 
-/// Takes the command line apart. The matcher's settings are the daemon's defaults, replaced by the
-/// configuration's, replaced by the preset's, then each changed by its own flag. Throws UsageError, FileError
-/// for the configuration.
+/// Takes the command line apart. The settings of matcher and rectification are the daemon's defaults,
+/// replaced by the configuration's, replaced by the preset's, then each changed by its own flag. Throws
+/// UsageError, FileError for the configuration.
 std::variant<MatchArguments, TextToPrint> parse_match_arguments(int argc, const char* const* argv);
 
 }  // namespace stereod

@@ -12,6 +12,7 @@
 #include "core/depth.h"
 #include "core/match/frame_matcher.h"
 #include "core/rectify_map.h"
+#include "core/stereo_rectification.h"
 #include "core/worker_pool.h"
 #include "daemon/config/calibration_file.h"
 #include "daemon/config/file_error.h"
@@ -48,8 +49,9 @@ void require_size(const std::filesystem::path& file, const char* what, Size foun
                   reference.string() + " has " + words_for(wanted) + "; they must have one size");
 }
 
-Picture rectified(const GreyImage& source, const CameraCalibration& calibration, WorkerPool& pool) {
-  const RectifyMap map(calibration, {source.size(), source.view().stride(), 1});
+Picture rectified(const GreyImage& source, const CameraCalibration& calibration, Interpolation interpolation,
+                  WorkerPool& pool) {
+  const RectifyMap map(calibration, {source.size(), source.view().stride(), 1}, interpolation);
   Picture result{GreyImage(source.size()), map.mask()};
   rectify_grey(map, source.row(0), result.image.view(), pool);
   return result;
@@ -62,7 +64,9 @@ Pair read_pair(const MatchArguments& arguments, const std::optional<Calibration>
   require_size(arguments.right, "has", right.size(), arguments.left, left.size());
   if (!calibration) return {{std::move(left), {}}, {std::move(right), {}}};
   require_size(*arguments.calibration, "is for", calibration->image, arguments.left, left.size());
-  return {rectified(left, calibration->left, pool), rectified(right, calibration->right, pool)};
+  const Interpolation interpolation = arguments.rectify.interpolation;
+  return {rectified(left, calibration->left, interpolation, pool),
+          rectified(right, calibration->right, interpolation, pool)};
 }
 
 std::vector<double> measure(FrameMatcher& matcher, const Pair& pair, DisparityImage& disparity, int runs) {
@@ -90,6 +94,7 @@ void write_view(const MatchArguments& arguments, const DisparityImage& disparity
 void run(const MatchArguments& arguments) {
   std::optional<Calibration> calibration;
   if (arguments.calibration) calibration = read_calibration(*arguments.calibration);
+  if (calibration && arguments.rectify.zoom) calibration = zoomed(*calibration, *arguments.rectify.zoom);
   WorkerPool pool(arguments.threads);
   const Pair pair = read_pair(arguments, calibration, pool);
   std::optional<Image<float>> truth;

@@ -11,7 +11,6 @@
 #include "calib/board_finder.h"
 #include "calib/depth_error.h"
 #include "calib/exchange.h"
-#include "calib/misalignment.h"
 #include "calib/rectified_view.h"
 #include "calib/text_file.h"
 #include "core/depth.h"
@@ -22,6 +21,7 @@
 #include "daemon/imagefile/write_image.h"
 #include "tests/support/board_scene.h"
 #include "tests/support/network.h"
+#include "tests/support/recorded_pairs.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_directory.h"
 
@@ -120,6 +120,8 @@ TEST_F(Program, SolvesSideBySidePictures) {
 
 TEST_F(Program, BadInputIsOneSentenceAndTouchesNothing) {
   write_text_file(folder_ / "c.yaml", "what was there before");
+  const StereoCameras cameras = known_cameras(kImage);
+  write_calibration(folder_ / "good.yaml", rectified_pair(cameras.left, cameras.right, cameras.pose));
   write_png(folder_ / "small.png", GreyImage(64, 48).view());
   write_text_file(folder_ / "text.png", "no picture");
   std::vector<std::string> lefts, rights;
@@ -164,6 +166,10 @@ TEST_F(Program, BadInputIsOneSentenceAndTouchesNothing) {
       {{"solve", pairs_->path().string(), "--square", "25mm", "--sqare", "1"}, "--sqare"},
       {{"check", file("c.yaml"), pairs_->path().string()}, "expected a map"},
       {{"check", file("none.yaml"), pairs_->path().string()}, "there is no such file"},
+      {{"check", file("good.yaml"), pairs_->path().string(), "--daemon"}, "not both"},
+      {{"check", file("good.yaml"), "--daemon", "--config", "x.yaml"}, "say where the pictures come from"},
+      {{"check", file("good.yaml"), "--config", file("none.yaml")}, "there is no such file"},
+      {{"check", file("good.yaml")}, "there are no pictures"},
       {{"import", "-o", file("c.yaml")}, "--ros, --opencv or --kalibr"},
       {{"import", "--kalibr", file("none.yaml"), "-o", file("c.yaml")}, "there is no such file"},
       {{"import", "--opencv", left(0), left(1), "-o", file("c.yaml")}, "FileStorage"},
@@ -363,6 +369,74 @@ TEST_F(Program, CaptureTakesTheRunningDaemonsPictures) {
   EXPECT_EQ(daemon.wait().status, 0);
   EXPECT_EQ(result.status, 0) << result.out << result.err;
   EXPECT_NEAR(read_calibration(file("c.yaml")).left.camera.fx / known_cameras(kImage).left.fx, 1, 0.01);
+}
+
+// What the daemon plays, over LCM: with the board, then a scene without one; cameras as calibrated, then
+// knocked.
+TEST_F(Program, ChecksTheRunningDaemonsCameras) {
+  if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
+  const StereoCameras k = known_cameras(kImage);
+  write_calibration(file("true.yaml"), rectified_pair(k.left, k.right, k.pose));
+  StereoPose knocked = k.pose;  // half a degree
+  knocked.rotation = rotation_about({0.009, 0, 0}) * knocked.rotation;
+  write_calibration(file("knocked.yaml"), rectified_pair(k.left, k.right, knocked));
+  fs::create_directory(folder_ / "boards");
+  for (std::size_t pose = 0; pose < 16; ++pose) {
+    fs::create_symlink(left(pose), folder_ / ("boards/left_" + std::to_string(pose) + ".png"));
+    fs::create_symlink(right(pose), folder_ / ("boards/right_" + std::to_string(pose) + ".png"));
+  }
+  write_recorded_pairs(folder_.path(), kImage, 6);  // a scene, and the calibration.yaml of its cameras
+  Calibration scene = read_calibration(file("calibration.yaml"));
+  scene.right.rotation = rotation_about({0.012, 0, 0}) * scene.right.rotation;
+  write_calibration(file("scene_knocked.yaml"), scene);
+  fs::create_directory(folder_ / "scene");
+  for (int i = 0; i < 6; ++i) {
+    for (const fs::path& picture : {recorded_left(folder_.path(), i), recorded_right(folder_.path(), i)}) {
+      fs::rename(picture, folder_ / "scene" / picture.filename());
+    }
+  }
+
+  struct Case {
+    const char *play, *calibration;
+    std::vector<std::string> more;
+    int status;
+    const char* words;
+  };
+  const Case cases[] = {
+      {"boards", "true.yaml", {"--square", "25mm"}, 0, "verdict: good"},
+      {"boards", "knocked.yaml", {"--board", "9x6"}, 1, "verdict: calibrate again"},
+      {"scene", "calibration.yaml", {"--board", "none"}, 0, "verdict: good"},
+      {"scene", "scene_knocked.yaml", {}, 1, "verdict: calibrate again"},
+  };
+  for (const Case& each : cases) {
+    const std::string config = file(std::string(each.play) + ".yaml");
+    write_text_file(
+        config, "cameras:\n  source: replay\n  fps: 10\n  replay:\n    folder: " + std::string(each.play) +
+                    "\nlcm:\n  prefix: CHECKED\n  raw_images: true\n  raw_images_per_second: 10\n");
+    fs::create_directories(folder_ / "daemon");
+    ChildProgram daemon(fs::path(STEREOD_BIN_DIR) / "stereod", {"--config", config}, folder_ / "daemon");
+    std::vector<std::string> arguments{
+        "check", file(each.calibration), "--daemon", "--prefix", "CHECKED", "--pairs", "6"};
+    arguments.insert(arguments.end(), each.more.begin(), each.more.end());
+    const ProgramRun result = run(arguments);
+    daemon.send(SIGTERM);
+    EXPECT_EQ(daemon.wait().status, 0);
+    EXPECT_EQ(result.status, each.status) << each.calibration << '\n' << result.out << result.err;
+    EXPECT_THAT(result.out, HasSubstr(each.words));
+    EXPECT_THAT(result.out, HasSubstr("row error: "));
+    EXPECT_THAT(result.out, HasSubstr("what it means for depth"));
+  }
+}
+
+TEST_F(Program, ChecksTheCamerasOfAConfiguration) {
+  write_recorded_pairs(folder_.path(), kImage, 3);
+  write_text_file(folder_ / "config.yaml",
+                  "cameras:\n  source: replay\n  fps: 0\n  replay:\n    folder: .\n    loop: false\n");
+  const ProgramRun result =
+      run({"check", file("calibration.yaml"), "--config", file("config.yaml"), "--board", "none"});
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("3 pairs"));
+  EXPECT_THAT(result.out, HasSubstr("verdict: good"));
 }
 
 }  // namespace

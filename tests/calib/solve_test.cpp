@@ -8,10 +8,11 @@
 #include <filesystem>
 
 #include "calib/errors.h"
-#include "calib/misalignment.h"
-#include "calib/rectified_view.h"
 #include "calib/report.h"
+#include "calib/row_matches.h"
 #include "core/rectify_map.h"
+#include "daemon/pipeline/alignment_monitor.h"
+#include "daemon/service/status_reporter.h"
 #include "tests/support/board_scene.h"
 
 namespace stereod {
@@ -117,13 +118,34 @@ TEST(Solve, ResolvesWhichEndOfTheBoardIsWhich) {
 TEST(Solve, LeavesOutAPairWhoseBoardMoved) {
   auto pictures = copy_of(known_pictures());
   const SolveResult before = solve(pictures, options_for(kBoard));
-  pictures[7].right = copy_of(pictures[12].right);
+  pictures[5].right = copy_of(pictures[12].right);
   const SolveResult after = solve(pictures, options_for(kBoard));
-  EXPECT_EQ(after.pairs[7].fate, PairFate::kLeftOut);
-  EXPECT_NE(after.pairs[7].reason.find("the board moved"), std::string::npos) << after.pairs[7].reason;
+  EXPECT_EQ(after.pairs[5].fate, PairFate::kLeftOut);
+  EXPECT_NE(after.pairs[5].reason.find("the board moved"), std::string::npos) << after.pairs[5].reason;
   EXPECT_EQ(after.count(PairFate::kLeftOut), 1);
-  EXPECT_NEAR(after.calibration.left.camera.fx / before.calibration.left.camera.fx, 1, 0.05);
-  EXPECT_NEAR(after.calibration.baseline_m / before.calibration.baseline_m, 1, 0.05);
+  EXPECT_NEAR(after.calibration.left.camera.fx / before.calibration.left.camera.fx, 1, 0.003);
+  EXPECT_NEAR(after.calibration.baseline_m / before.calibration.baseline_m, 1, 0.003);
+  EXPECT_NEAR(after.calibration.quality.rms_px / before.calibration.quality.rms_px, 1, 0.05);
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    if (i == 5) continue;
+    EXPECT_EQ(after.pairs[i].fate, before.pairs[i].fate) << i;
+  }
+}
+
+// One that would have been held back itself: the next one stands in for it, and nothing else changes.
+TEST(Solve, AnotherPairStandsInForOneThatWouldBeHeldBack) {
+  auto pictures = copy_of(known_pictures());
+  const SolveResult before = solve(pictures, options_for(kBoard));
+  std::size_t held = 0;
+  while (before.pairs[held].fate != PairFate::kHeldBack) ++held;
+  pictures[held].right = copy_of(pictures[19].right);
+  const SolveResult after = solve(pictures, options_for(kBoard));
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const PairFate want = i == held       ? PairFate::kLeftOut
+                          : i == held + 1 ? PairFate::kHeldBack
+                                          : before.pairs[i].fate;
+    EXPECT_EQ(after.pairs[i].fate, want) << i;
+  }
 }
 
 // Six pixels are a quarter of a square: less than any threshold on where the board is.
@@ -229,6 +251,17 @@ std::vector<PicturePair> pictures_of(const RealSet& set) {
   return read_pairs(input);
 }
 
+// Over the pairs calibrated with, but for one: how well the others fit should not change where that one is
+// left out, although the whole does if it was the one that fitted worst.
+double rms_without(const SolveResult& result, std::size_t without) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    if (i == without || result.pairs[i].fate != PairFate::kUsed) continue;
+    sum += result.pairs[i].error_px * result.pairs[i].error_px, count += 1;
+  }
+  return std::sqrt(sum / count);
+}
+
 class SolveRealSet : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(SolveRealSet, IsAsGoodAsPromisedAndStaysSoWithAMovedBoard) {
@@ -254,7 +287,10 @@ TEST_P(SolveRealSet, IsAsGoodAsPromisedAndStaysSoWithAMovedBoard) {
   EXPECT_NEAR(b.left.camera.fx / a.left.camera.fx, 1, 0.05);
   EXPECT_NEAR(b.right.camera.fx / a.right.camera.fx, 1, 0.05);
   EXPECT_NEAR(b.baseline_m / a.baseline_m, 1, 0.05);
-  EXPECT_NEAR(b.quality.rms_px / a.quality.rms_px, 1, 0.25);
+  EXPECT_NEAR(rms_without(moved, 4) / rms_without(result, 4), 1, 0.05);
+  // Of three pairs in the smallest set; a hundredth of a pixel is less than corners are found to.
+  EXPECT_NEAR(moved.held_back.row_error_px, result.held_back.row_error_px,
+              std::max(0.05 * result.held_back.row_error_px, 0.01));
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, SolveRealSet, testing::Range<std::size_t>(0, 3), [](const auto& set) {
@@ -262,42 +298,77 @@ INSTANTIATE_TEST_SUITE_P(Sets, SolveRealSet, testing::Range<std::size_t>(0, 3), 
 });
 
 // The scenes of the rig, rectified by the daemon's own table.
-TEST(SolveReal, RowsOfTheStereoPiScenesAlign) {
-  const fs::path rig = datasets() / "rig_stereopi";
-  if (!fs::exists(rig)) GTEST_SKIP() << rig << " is not here";
-  const RealSet set = real_sets()[2];
-  const SolveResult result = solve(pictures_of(set), {std::nullopt, set.square_m, LensChoice::kPinhole});
-  PairInput input;
-  input.folder = rig / "scenes";
-  const auto scenes = read_pairs(input);
-  ASSERT_EQ(scenes.size(), 7U);
-  for (const PicturePair& scene : scenes) {
-    const auto rectified = [](const CameraCalibration& camera, const GreyImage& picture) {
-      const RectifyMap map(camera, {picture.size(), picture.view().stride(), 1});
-      GreyImage out(picture.size());
-      map.grey_rows(picture.row(0), {0, picture.height()}, out.view());
-      return out;
-    };
-    const GreyImage left = rectified(result.calibration.left, scene.left);
-    const GreyImage right = rectified(result.calibration.right, scene.right);
-    const auto found = misalignment(match_rows(left.view(), right.view()), left.size());
-    ASSERT_TRUE(found.has_value()) << scene.name;
-    // The table takes whole pixels, so a part of the image may be half a row off; the whole must not be.
-    EXPECT_LT(std::abs(found->row_offset_px), 0.3) << scene.name;
-    const auto smooth =
-        misalignment(match_rows(rectified_view(result.calibration.left, scene.left.view()).view(),
-                                rectified_view(result.calibration.right, scene.right.view()).view()),
-                     left.size());
-    ASSERT_TRUE(smooth.has_value()) << scene.name;
-    EXPECT_LT(smooth->row_error_px, 0.3) << scene.name;
-    // Without rectification they do not: the measurement does measure.
-    GreyImage shifted(right.size());
-    for (int y = 0; y < right.height(); ++y) {
-      std::copy_n(right.row(std::min(y + 2, right.height() - 1)), right.width(), shifted.row(y));
+class StereoPiScenes : public testing::Test {
+ protected:
+  void SetUp() override {
+    const fs::path rig = datasets() / "rig_stereopi";
+    if (!fs::exists(rig)) GTEST_SKIP() << rig << " is not here";
+    const RealSet set = real_sets()[2];
+    found_ = solve(pictures_of(set), {std::nullopt, set.square_m, LensChoice::kPinhole}).calibration;
+    PairInput input;
+    input.folder = rig / "scenes";
+    scenes_ = read_pairs(input);
+    ASSERT_EQ(scenes_.size(), 7U);
+  }
+
+  RectifyMap map(const CameraCalibration& camera, const GreyImage& picture,
+                 Interpolation interpolation) const {
+    return {camera, {picture.size(), picture.view().stride(), 1}, interpolation};
+  }
+  GreyImage rectified(const CameraCalibration& camera, const GreyImage& picture,
+                      Interpolation interpolation) const {
+    GreyImage out(picture.size());
+    map(camera, picture, interpolation).grey_rows(picture.row(0), {0, picture.height()}, out.view());
+    return out;
+  }
+  static std::optional<Misalignment> measured(const GreyImage& left, const GreyImage& right) {
+    return misalignment(match_rows(left.view(), right.view()), left.size());
+  }
+
+  Calibration found_;
+  std::vector<PicturePair> scenes_;
+};
+
+TEST_F(StereoPiScenes, RowsAlign) {
+  for (const PicturePair& scene : scenes_) {
+    for (const Interpolation interpolation : {Interpolation::kNearest, Interpolation::kBilinear}) {
+      const GreyImage left = rectified(found_.left, scene.left, interpolation);
+      const GreyImage right = rectified(found_.right, scene.right, interpolation);
+      const auto found = measured(left, right);
+      ASSERT_TRUE(found.has_value()) << scene.name;
+      EXPECT_LT(std::abs(found->row_offset_px), 0.3) << scene.name;
+      // The nearest pixel is up to half a row off, and a whole part of the image may be so to the same side.
+      if (interpolation == Interpolation::kBilinear) {
+        EXPECT_LT(found->row_error_px, 0.3) << scene.name;
+      }
+      // If they are apart, that is seen: the measurement does measure.
+      GreyImage shifted(right.size());
+      for (int y = 0; y < right.height(); ++y) {
+        std::copy_n(right.row(std::min(y + 2, right.height() - 1)), right.width(), shifted.row(y));
+      }
+      const auto off = measured(left, shifted);
+      ASSERT_TRUE(off.has_value()) << scene.name;
+      EXPECT_NEAR(off->row_offset_px, 2, 0.3) << scene.name;
     }
-    const auto off = misalignment(match_rows(left.view(), shifted.view()), left.size());
-    ASSERT_TRUE(off.has_value()) << scene.name;
-    EXPECT_NEAR(off->row_offset_px, 2, 0.3) << scene.name;
+  }
+}
+
+// What the daemon itself sees of it while it runs.
+TEST_F(StereoPiScenes, TheDaemonTakesNoneForAKnock) {
+  for (const Interpolation interpolation : {Interpolation::kNearest, Interpolation::kBilinear}) {
+    const RectifyMap left_map = map(found_.left, scenes_[0].left, interpolation);
+    const RectifyMap right_map = map(found_.right, scenes_[0].right, interpolation);
+    const ValidityMask left_mask = left_map.mask(), right_mask = right_map.mask();
+    KnockDetector detector;
+    for (const PicturePair& scene : scenes_) {
+      AlignmentMonitor monitor(scene.left.size(), 0, 64);
+      for (int frame = 0; frame < 300; ++frame) {
+        monitor.frame_matched({left_map, left_mask, scene.left.row(0)},
+                              {right_map, right_mask, scene.right.row(0)}, 1'000'000'000);
+      }
+      const AlignmentFigures figures = monitor.figures();
+      EXPECT_EQ(detector.judge(figures), "") << scene.name;
+    }
   }
 }
 

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
+
+#include "core/match/isa.h"
 
 namespace stereod {
 namespace {
@@ -34,8 +38,15 @@ CameraCalibration tilted(Size size) {
   return c;
 }
 
-const std::vector<Size> sizes = {{1, 1}, {2, 1},  {1, 2},  {3, 5},   {7, 3},
-                                 {8, 8}, {9, 17}, {16, 2}, {31, 33}, {67, 41}};
+// Turned by so much that neighbours hardly ever move together.
+CameraCalibration slanted(Size size) {
+  CameraCalibration c = tilted(size);
+  c.rotation = rotation_about({0, 0, 0.8});
+  return c;
+}
+
+const std::vector<Size> sizes = {{1, 1},  {2, 1},  {1, 2},  {3, 5},   {7, 3},   {8, 8},
+                                 {9, 17}, {16, 2}, {17, 5}, {31, 33}, {67, 41}, {300, 20}};
 
 // The definition: the offset's byte, or 0.
 std::uint8_t expected(const RectifyMap& map, const std::uint8_t* source, int x, int y, int channel = 0) {
@@ -98,9 +109,10 @@ TEST(RectifyMap, NothingIsSeenBehindTheCamera) {
 
 TEST(RectifyMap, GreyMovesEveryPixelOfEverySizeAndLayout) {
   for (const Size size : sizes) {
-    for (const std::ptrdiff_t pixel_stride : {1, 2, 4}) {
+    for (const std::ptrdiff_t pixel_stride : {1, 2, 3, 4}) {
       const SourceLayout layout{size, size.width * pixel_stride + 3, pixel_stride};
-      const RectifyMap maps[] = {RectifyMap(tilted(size), layout), RectifyMap::identity(layout)};
+      const RectifyMap maps[] = {RectifyMap(tilted(size), layout), RectifyMap(slanted(size), layout),
+                                 RectifyMap::identity(layout)};
       for (const RectifyMap& map : maps) {
         const auto source = exact(bytes_of(layout, 1));
         const auto width = static_cast<std::size_t>(size.width);
@@ -124,8 +136,8 @@ TEST(RectifyMap, ColorMovesEveryPixelAndNoByteBeyondTheLast) {
       const SourceLayout layout{size, size.width * pixel_stride, pixel_stride};
       CameraCalibration turned = tilted(size);  // by half a turn: the last pixel becomes the first
       turned.rotation = rotation_about({0, 0, 3.14159265358979});
-      const RectifyMap maps[] = {RectifyMap(tilted(size), layout), RectifyMap::identity(layout),
-                                 RectifyMap(turned, layout)};
+      const RectifyMap maps[] = {RectifyMap(tilted(size), layout), RectifyMap(slanted(size), layout),
+                                 RectifyMap::identity(layout), RectifyMap(turned, layout)};
       for (const RectifyMap& map : maps) {
         const auto source = exact(bytes_of(layout, 3));
         const std::size_t pixels =
@@ -143,6 +155,94 @@ TEST(RectifyMap, ColorMovesEveryPixelAndNoByteBeyondTheLast) {
       }
     }
   }
+}
+
+// The definition of bilinear interpolation, in steps of 1/32 px, from the source coordinates; nothing
+// outside.
+std::optional<int> blended(const CameraCalibration& camera, const SourceLayout& layout,
+                           const std::uint8_t* source, int x, int y) {
+  const auto at = source_point(camera, {static_cast<double>(x), static_cast<double>(y)});
+  if (!at) return std::nullopt;
+  const double across = std::nearbyint(32 * at->x), down = std::nearbyint(32 * at->y);
+  if (across < 0 || down < 0 || across > 32 * (layout.size.width - 1) ||
+      down > 32 * (layout.size.height - 1)) {
+    return std::nullopt;
+  }
+  const int u = static_cast<int>(across), v = static_cast<int>(down);
+  int sum = 0;
+  for (const int dy : {0, 1}) {
+    for (const int dx : {0, 1}) {
+      const int weight = (dx == 1 ? u % 32 : 32 - u % 32) * (dy == 1 ? v % 32 : 32 - v % 32);
+      if (weight > 0) {
+        sum += weight * source[(v / 32 + dy) * layout.row_stride + (u / 32 + dx) * layout.pixel_stride];
+      }
+    }
+  }
+  return (sum + 512) / 1024;
+}
+
+TEST(RectifyMap, BilinearIsTheWeightedMeanOfFourPixels) {
+  for (const Size size : sizes) {
+    for (const std::ptrdiff_t pixel_stride : {1, 2, 4}) {
+      const SourceLayout layout{size, size.width * pixel_stride + 3, pixel_stride};
+      for (const CameraCalibration& camera : {tilted(size), slanted(size)}) {
+        const RectifyMap map(camera, layout, Interpolation::kBilinear);
+        const ValidityMask mask = map.mask();
+        const auto source = exact(bytes_of(layout, 1));
+        const auto width = static_cast<std::size_t>(size.width);
+        const std::unique_ptr<std::uint8_t[]> out(new std::uint8_t[width]);
+        for (int y = 0; y < size.height; ++y) {
+          map.grey_row(source.get(), y, out.get());
+          for (int x = 0; x < size.width; ++x) {
+            const std::optional<int> want = blended(camera, layout, source.get(), x, y);
+            ASSERT_EQ(mask.row(y)[x] != 0, want.has_value());
+            ASSERT_EQ(int{out[static_cast<std::size_t>(x)]}, want.value_or(0))
+                << size.width << 'x' << size.height << " stride " << pixel_stride << " at " << x << ' ' << y;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(RectifyMap, EveryInstructionSetBlendsAlike) {
+  constexpr int kMost = 300;
+  const auto bytes = exact(std::size_t{4} * kMost);
+  std::mt19937 random(5);
+  std::vector<std::uint8_t> across(kMost), down(kMost);
+  for (int i = 0; i < kMost; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    across[at] = static_cast<std::uint8_t>(i < 33 ? 4 * i : 4 * (random() % 33));
+    down[at] = static_cast<std::uint8_t>(i < 33 ? 32 : random() % 33);
+    if (i % 7 == 0) bytes[at] = 255, bytes[at + kMost] = 0;
+    if (i % 5 == 0) bytes[at + 2 * kMost] = 0, bytes[at + 3 * kMost] = 255;
+  }
+  const BlendRow row{bytes.get(),   bytes.get() + kMost, bytes.get() + 2 * kMost, bytes.get() + 3 * kMost,
+                     across.data(), down.data()};
+  for (const Isa isa : available_isas()) {
+    for (const int count : {1, 7, 16, 33, kMost}) {
+      std::vector<std::uint8_t> out(static_cast<std::size_t>(count) + 1, 77);
+      blend_for(isa)(row, count, out.data());
+      for (int i = 0; i < count; ++i) {
+        const int a = across[static_cast<std::size_t>(i)] / 4, d = down[static_cast<std::size_t>(i)];
+        const int sum = (32 - d) * ((32 - a) * row.top_left[i] + a * row.top_right[i]) +
+                        d * ((32 - a) * row.bottom_left[i] + a * row.bottom_right[i]);
+        ASSERT_EQ(int{out[static_cast<std::size_t>(i)]}, (sum + 512) / 1024) << name_of(isa) << ' ' << i;
+      }
+      EXPECT_EQ(out.back(), 77) << name_of(isa);
+    }
+  }
+}
+
+TEST(RectifyMap, TablesAreSmall) {
+  const Size size{640, 480};
+  for (const CameraCalibration& camera : {tilted(size), slanted(size)}) {
+    for (const std::ptrdiff_t pixel_stride : {1, 3}) {
+      const SourceLayout layout{size, size.width * pixel_stride, pixel_stride};
+      EXPECT_LE(RectifyMap(camera, layout).bytes(), 1'300'000U);
+    }
+  }
+  EXPECT_LE(RectifyMap(tilted(size), {size, 640, 1}, Interpolation::kBilinear).bytes(), 1'300'000U);
 }
 
 TEST(RectifyMap, RowsOutsideTheRangeStayUntouched) {
@@ -205,6 +305,8 @@ TEST(RectifyMap, ImpossibleLayoutsAreRefusedInWords) {
   EXPECT_EQ(complaint_about({{1280, 720}, 1280, 1}),
             "the calibration is for 640×480 images, the camera delivers 1280×720");
   EXPECT_EQ(complaint_about({{0, 480}, 640, 1}), "an image of 0×480 pixels cannot be rectified");
+  EXPECT_EQ(complaint_about({{70'000, 4}, 70'000, 1}),
+            "an image of 70000×4 pixels cannot be rectified; at most 65535 columns are possible");
   EXPECT_EQ(complaint_about({{640, 480}, 640, 2}),
             "rows 640 bytes apart do not hold 640 pixels 2 bytes apart");
   EXPECT_EQ(complaint_about({{640, 480}, -640, 1}),

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "core/rectify_map.h"
+
 namespace stereod {
 namespace {
 
@@ -100,6 +102,62 @@ TEST(StereoRectification, RefusesWhatIsNoPairSideBySide) {
   EXPECT_TRUE(refusal({rotation_about({0, 1.5, 0}), {-0.1, 0, 0}}).find("nothing in common") !=
               std::string::npos);
   EXPECT_EQ(refusal(crooked()), "none");
+}
+
+CameraModel fisheye_camera() {
+  CameraModel result = camera(280, 0.02);
+  result.lens = LensModel::kFisheye;
+  return result;
+}
+
+int pixels_without_source(const CameraCalibration& c, Interpolation interpolation) {
+  const Size size = c.camera.image;
+  const ValidityMask mask = RectifyMap(c, {size, size.width, 1}, interpolation).mask();
+  int without = 0;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) without += mask.row(y)[x] == 0 ? 1 : 0;
+  }
+  return without;
+}
+
+TEST(StereoRectification, ZoomGoesFromOnlyValidPixelsToAllPixels) {
+  for (const CameraModel& model : {camera(500, -0.2), camera(600, 0.1), fisheye_camera()}) {
+    CameraModel right = model;
+    right.cx += 15, right.fx *= 1.02;
+    const Calibration found = rectified_pair(model, right, crooked());
+    EXPECT_EQ(zoomed(found, 0), found);
+    double before = found.left.projection.fx * 1.0001;
+    int without_before = -1;
+    for (const double zoom : {0.0, 0.3, 0.7, 1.0}) {
+      const Calibration c = zoomed(found, zoom);
+      EXPECT_FALSE(problem_with(c).has_value());
+      EXPECT_EQ(c.left.projection, c.right.projection);
+      EXPECT_EQ(c.left.rotation, found.left.rotation);
+      EXPECT_EQ(c.baseline_m, found.baseline_m);
+      EXPECT_EQ(c.id, calibration_id(c));
+      EXPECT_LT(c.left.projection.fx, before) << zoom;
+      before = c.left.projection.fx;
+      int without = 0;
+      for (const CameraCalibration* side : {&c.left, &c.right}) {
+        without += pixels_without_source(*side, Interpolation::kNearest);
+        EXPECT_TRUE(zoom > 0 || pixels_without_source(*side, Interpolation::kBilinear) == 0);
+      }
+      EXPECT_TRUE(zoom > 0 || without == 0) << without;
+      EXPECT_GT(without, without_before);
+      without_before = without;
+    }
+    if (model.lens == LensModel::kFisheye) continue;  // its corners may look farther aside than a plane shows
+    const Calibration all = zoomed(found, 1);
+    for (const CameraCalibration* side : {&all.left, &all.right}) {
+      for (const double x : {0.0, 200.0, 639.0}) {
+        for (const double y : {0.0, 300.0, 479.0}) {
+          const auto p = rectified_point(*side, {x, y});
+          ASSERT_TRUE(p.has_value());
+          EXPECT_TRUE(p->x > -0.01 && p->x < 639.01 && p->y > -0.01 && p->y < 479.01) << p->x << ' ' << p->y;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

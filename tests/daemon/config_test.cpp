@@ -68,6 +68,7 @@ matcher:
   implementation: sliding
   isa: scalar
   cache: small
+rectify: {interpolation: bilinear, zoom: 0.25}
 workers: 3
 scheduling: {priority: 10, cpus: "0,2-4"}
 lcm: {url: "memq://", prefix: FRONT, rows_per_message: 8, spread: 0.5}
@@ -96,6 +97,8 @@ log: {level: debug}
   EXPECT_EQ(config.matcher.implementation, Implementation::kSliding);
   EXPECT_EQ(config.matcher.isa, Isa::kScalar);
   EXPECT_EQ(config.matcher.cache, CacheUse::kSmall);
+  EXPECT_EQ(config.rectify.interpolation, Interpolation::kBilinear);
+  EXPECT_EQ(config.rectify.zoom, 0.25);
   EXPECT_EQ(config.worker_count(), 3);
   EXPECT_EQ(config.scheduling.priority, 10);
   EXPECT_EQ(config.scheduling.cpus, (std::vector<int>{0, 2, 3, 4}));
@@ -244,6 +247,10 @@ INSTANTIATE_TEST_SUITE_P(
                   "stereod.yaml:3: cameras.v4l2.align: found 'maybe', allowed are never, start and always"},
         BadConfig{"cameras:\n  source: v4l2\n  v4l2: {widh: 3}\n",
                   "stereod.yaml:3: cameras.v4l2.widh: is not a known key; the nearest known key is 'width'"},
+        BadConfig{"cameras: {source: synthetic}\nrectify: {interpolation: cubic}\n",
+                  "stereod.yaml:2: rectify.interpolation: found 'cubic', allowed are nearest and bilinear"},
+        BadConfig{"cameras: {source: synthetic}\nrectify: {zoom: 1.5}\n",
+                  "stereod.yaml:2: rectify.zoom: found '1.5', allowed are numbers from 0 to 1"},
         BadConfig{"cameras: {source: synthetic}\nlcm:\n  raw_images_per_second: 0\n",
                   "stereod.yaml:3: lcm.raw_images_per_second: found '0', allowed are numbers from 0.1 to 60"},
         BadConfig{"cameras: {source: synthetic\n",
@@ -291,6 +298,8 @@ TEST_F(ConfigFile, TheShippedFileSaysTheDefaults) {
   EXPECT_EQ(shipped.cameras.v4l2.align_tries, defaults.cameras.v4l2.align_tries);
   EXPECT_EQ(shipped.lcm.raw_images, defaults.lcm.raw_images);
   EXPECT_EQ(shipped.lcm.raw_images_per_second, defaults.lcm.raw_images_per_second);
+  EXPECT_EQ(shipped.rectify.interpolation, defaults.rectify.interpolation);
+  EXPECT_EQ(shipped.rectify.zoom, defaults.rectify.zoom);
   EXPECT_EQ(shipped.matcher, defaults.matcher);
   EXPECT_EQ(shipped.lcm.url, defaults.lcm.url);
   EXPECT_EQ(shipped.lcm.prefix, defaults.lcm.prefix);

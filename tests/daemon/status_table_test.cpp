@@ -96,6 +96,8 @@ TEST(StatusTable, ShowsEveryField) {
   s.valid_fraction = 0.777;
   s.cpu_percent = 88.8;
   s.rss_mb = 99.9;
+  s.row_error_px = 3.21;
+  s.row_error_points = 150;
   s.left = camera("left", "/dev/a", "streaming", "", 31.3, 2000);
   s.right = camera("right", "/dev/b", "waiting", "unplugged", 32.4, 3000);
   s.right.last_fault = "pulled out";
@@ -130,7 +132,8 @@ TEST(StatusTable, ShowsEveryField) {
                                "300.9",      "now /dev/a",
                                "now /dev/b", "fmt-left",
                                "fmt-right",  "note-left",
-                               "note-right", "42 s ago: pulled out"}) {
+                               "note-right", "42 s ago: pulled out",
+                               "3.21"}) {
     EXPECT_NE(text.find(expected), std::string::npos) << expected << " is missing from\n" << text;
   }
   EXPECT_EQ(lines[0].substr(0, 5), "state");

@@ -72,6 +72,20 @@ TEST_F(V4l2CameraTest, ALateConsumerGetsTheNewestFrame) {
   ASSERT_TRUE(late);
   EXPECT_EQ(late.frame().sequence, before + 3);  // frames come 33 ms apart
   EXPECT_EQ(camera.report().superseded, 2);
+  EXPECT_EQ(camera.report().sequence_gaps, 0) << "what was dropped here did come here";
+}
+
+TEST_F(V4l2CameraTest, FramesThatNeverCameAreCounted) {
+  V4l2Camera& camera = open_left();
+  bench_.left_camera->on_frame = [](FakeFrame& frame) { frame.sequence *= 4; };
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(bench_.frame(camera));
+  const std::int64_t missed = camera.report().sequence_gaps;
+  EXPECT_GE(missed, 4 * 3);
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(bench_.frame(camera));
+  EXPECT_EQ(camera.report().sequence_gaps, missed + 5 * 3);
+  bench_.left_camera->on_frame = nullptr;  // goes back: a camera that has begun anew has lost nothing
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(bench_.frame(camera));
+  EXPECT_EQ(camera.report().sequence_gaps, missed + 5 * 3);
 }
 
 TEST_F(V4l2CameraTest, WaitsForACameraThatComesLater) {
@@ -181,7 +195,7 @@ TEST_F(V4l2CameraTest, ACameraThatOnlySendsRubbishIsNamedSo) {
   bench_.left_camera->on_frame = [](FakeFrame& frame) { frame.bytes.resize(100); };
   EXPECT_FALSE(bench_.frame(camera, 1500));
   EXPECT_EQ(camera.report().state, "wedged");
-  EXPECT_THAT(camera.report().reason, HasSubstr("sends only damaged frames"));
+  EXPECT_THAT(camera.report().reason, HasSubstr("sends only damaged frames, the last one too short"));
   EXPECT_GT(camera.report().incomplete, 20);
   bench_.left_camera->on_frame = nullptr;
   EXPECT_TRUE(bench_.frame(camera, 2000));

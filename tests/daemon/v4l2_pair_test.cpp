@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <linux/videodev2.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "tests/support/camera_bench.h"
 #include "tests/support/camera_jpeg.h"
@@ -82,6 +84,23 @@ TEST_F(Bandwidth, StreamsThatNeverDeliverStepDownToo) {
   EXPECT_EQ(bench_.right->report().format, "MJPG 64×48 at 30/s");
 }
 
+TEST_F(Bandwidth, ASilentCameraThatHasStreamedHereIsNotTakenForAFullBus) {
+  bench_.make();
+  bench_.run(2000);
+  const int right_starts = bench_.right_camera->starts;
+  bench_.left_camera->frozen = true;
+  bench_.run(30'000);
+  EXPECT_EQ(bench_.left->report().state, "wedged");
+  EXPECT_EQ(bench_.left->fault().reason, CameraReason::kSilent);
+  EXPECT_EQ(std::count_if(bench_.log.begin(), bench_.log.end(),
+                          [](const std::string& line) { return line.find("left camera is") != line.npos; }),
+            1);
+  EXPECT_EQ(bench_.right_camera->starts, right_starts);
+  bench_.left_camera->frozen = false;
+  EXPECT_GT(bench_.run(5000).left, 30);
+  EXPECT_EQ(bench_.left->report().format, "YUYV 64×48 at 30/s");
+}
+
 TEST_F(Bandwidth, ANamedFormatIsKeptAndTheRemedySaid) {
   bench_.config.v4l2.format = "yuyv";
   bench_.video.bus_capacity = 1.5 * kYuyvTraffic;
@@ -106,6 +125,53 @@ TEST_F(Bandwidth, WithNoStepLeftItSaysSoAndGoesOnTrying) {
   bench_.video.bus_capacity = 0;
   send_jpegs();
   EXPECT_GT(bench_.run(3000).left, 5);
+}
+
+TEST_F(Bandwidth, ACameraThatComesBackDoesNotDisturbTheOther) {
+  send_jpegs();
+  bench_.video.bus_capacity = 1.5 * kYuyvTraffic;
+  bench_.make();
+  bench_.run(3000);
+  const int left_starts = bench_.left_camera->starts;
+  bench_.video.plug(*bench_.right_camera, false);
+  bench_.run(3000);
+  bench_.video.plug(*bench_.right_camera, true);
+  bench_.run(3000);
+  EXPECT_EQ(bench_.right->report().state, "streaming");
+  EXPECT_EQ(bench_.right->report().format, "MJPG 64×48 at 30/s") << "the bus is as full as it was";
+  EXPECT_EQ(bench_.left_camera->starts, left_starts);
+}
+
+TEST_F(Bandwidth, OnAnotherBusBothBeginAnewWithTheBest) {
+  send_jpegs();
+  bench_.video.bus_capacity = 1.5 * kYuyvTraffic;
+  bench_.make();
+  bench_.run(3000);
+  ASSERT_EQ(bench_.left->report().format, "MJPG 64×48 at 30/s");
+  bench_.video.plug(*bench_.right_camera, false);
+  bench_.run(1000);
+  bench_.right_camera->bus = "usb-0000:02:00.0-1";
+  bench_.video.bus_capacity = 0;
+  bench_.video.plug(*bench_.right_camera, true);
+  bench_.run(3000);
+  EXPECT_EQ(bench_.left->report().format, "YUYV 64×48 at 30/s");
+  EXPECT_EQ(bench_.right->report().format, "YUYV 64×48 at 30/s");
+  EXPECT_THAT(bench_.log, testing::Contains(HasSubstr("a camera has moved to another bus")));
+  EXPECT_GT(bench_.run(2000).left, 50);
+}
+
+TEST_F(Bandwidth, WithBothGoneTheNextBeginWithTheBest) {
+  send_jpegs();
+  bench_.video.bus_capacity = 1.5 * kYuyvTraffic;
+  bench_.make();
+  bench_.run(3000);
+  for (FakeCamera* camera : {bench_.left_camera, bench_.right_camera}) bench_.video.plug(*camera, false);
+  bench_.run(3000);
+  bench_.video.bus_capacity = 0;
+  for (FakeCamera* camera : {bench_.left_camera, bench_.right_camera}) bench_.video.plug(*camera, true);
+  bench_.run(3000);
+  EXPECT_EQ(bench_.left->report().format, "YUYV 64×48 at 30/s");
+  EXPECT_EQ(bench_.right->report().format, "YUYV 64×48 at 30/s");
 }
 
 TEST(BusOf, LeavesThePortOut) {
@@ -263,6 +329,35 @@ TEST_F(Phase, ComesFromSixteenMillisecondsBelowThree) {
   EXPECT_EQ(bench_.right_camera->starts, 1 + phase.restarts);
   const CameraBench::Frames frames = bench_.run(3000);
   EXPECT_GE(frames.right, 85) << "and then is left alone";
+}
+
+// Crystals 20 ppm apart: six milliseconds in five minutes.
+TEST_F(Phase, AnHourOfDriftIsFollowed) {
+  bench_.config.v4l2.align = AlignMode::kAlways;
+  bench_.right_camera->drift_ppb = 20'000;
+  bench_.make();
+  bench_.run(8000);
+  ASSERT_EQ(bench_.pair->phase().state, PhaseState::kAligned);
+  const std::int64_t restarts_before = bench_.pair->phase().restarts;
+  const std::int64_t period_ns = bench_.left_camera->period_ns;
+  const std::int64_t end_ns = bench_.video.now_ns() + 3'600'000'000'000;
+  std::int64_t left_ns = 0;
+  int frames = 0, apart = 0;
+  while (bench_.video.now_ns() < end_ns) {
+    if (const FrameLease left = bench_.left->next(std::chrono::milliseconds(50)))
+      left_ns = left.frame().captured_ns;
+    if (const FrameLease right = bench_.right->next(std::chrono::milliseconds(50))) {
+      const std::int64_t skew_ns = std::llabs(right.frame().captured_ns - left_ns) % period_ns;
+      if (std::min(skew_ns, period_ns - skew_ns) > 6'100'000) ++apart;
+      ++frames;
+    }
+  }
+  EXPECT_GT(frames, 107'000) << "of 108,000";
+  EXPECT_LT(apart, frames / 100) << "twice the target is left at once";
+  const std::int64_t restarts = bench_.pair->phase().restarts - restarts_before;
+  EXPECT_GE(restarts, 8);
+  EXPECT_LE(restarts, 16);
+  EXPECT_EQ(bench_.left_camera->starts, 1);
 }
 
 TEST_F(Phase, FramesOnLoanDoNotStandInItsWay) {

@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "daemon/imagefile/pfm_file.h"
+#include "daemon/imagefile/read_image.h"
+#include "daemon/imagefile/write_image.h"
 #include "daemon/tools/tap/frame_assembler.h"
 #include "daemon/tools/tap/frame_listener.h"
 #include "daemon/tools/tap/lcm_receiver.h"
@@ -188,6 +190,62 @@ TEST_F(StereodTest, MissingCamerasAreAStateAndNoReasonToEnd) {
   EXPECT_EQ(status.right.state, "absent");
   stereod.send(SIGTERM);
   EXPECT_EQ(stereod.wait().status, 0);
+}
+
+// A recording in which the right camera is knocked: from one picture on it looks four rows lower.
+TEST_F(StereodTest, AKnockedCameraIsNamedWithinSeconds) {
+  if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
+  constexpr int kBefore = 100, kAfter = 300, kPictures = 4;
+  write_recorded_pairs(directory_.path(), kSize, kPictures);
+  std::filesystem::create_directory(directory_ / "play");
+  for (int i = 0; i < kPictures; ++i) {
+    const GreyImage right = read_grey(recorded_right(directory_.path(), i));
+    GreyImage lower(right.size());
+    for (int y = 0; y < lower.height(); ++y) {
+      std::copy_n(right.row(std::max(y - 4, 0)), lower.width(), lower.row(y));
+    }
+    write_png(directory_ / ("lower_" + std::to_string(i) + ".png"), lower.view());
+  }
+  for (int i = 0; i < kBefore + kAfter; ++i) {
+    const auto name = [&](const char* side) {
+      return directory_ / "play" / (side + std::to_string(i) + ".png");
+    };
+    std::filesystem::create_symlink(recorded_left(directory_.path(), i % kPictures), name("left_"));
+    std::filesystem::create_symlink(i < kBefore
+                                        ? recorded_right(directory_.path(), i % kPictures)
+                                        : directory_ / ("lower_" + std::to_string(i % kPictures) + ".png"),
+                                    name("right_"));
+  }
+  const std::filesystem::path file = directory_ / "knock.yaml";
+  std::ofstream(file) << "cameras: {source: replay, fps: 20, replay: {folder: play, loop: false}}\n"
+                      << "calibration: calibration.yaml\nlcm: {url: \"" << kUrl << "\", prefix: E2E}\n";
+  LcmReceiver receiver(kUrl);
+  std::vector<status_t> before, after;
+  receiver.subscribe("E2E_STATUS", [&](std::span<const std::byte> bytes) {
+    status_t status;
+    if (!decode_message(bytes, status) || status.state == "starting") return;
+    (status.left.frames <= kBefore ? before : after).push_back(status);
+  });
+  ChildProgram stereod(kBin / "stereod", {"--config", file.string()}, directory_.path());
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while ((after.empty() || after.back().state != "degraded") && std::chrono::steady_clock::now() < deadline) {
+    receiver.receive(std::chrono::milliseconds(100));
+  }
+  stereod.send(SIGTERM);
+  const ProgramRun run = stereod.wait();
+  ASSERT_FALSE(before.empty()) << run.err;
+  for (const status_t& status : before) EXPECT_EQ(status.state, "streaming") << status.reason;
+  EXPECT_GT(before.back().row_error_points, 0);
+  EXPECT_LT(before.back().row_error_px, 0.5);
+  ASSERT_FALSE(after.empty());
+  const status_t& last = after.back();
+  EXPECT_EQ(last.state, "degraded");
+  EXPECT_NE(last.reason.find("was a camera knocked?"), std::string::npos) << last.reason;
+  EXPECT_NE(last.reason.find(" px apart, by "), std::string::npos) << last.reason;
+  EXPECT_GT(last.row_error_px, 1);
+  // In recorded time, which is not the machine's load's.
+  EXPECT_LE(last.left.frames, kBefore + 20 * 6);
+  EXPECT_NE(run.err.find("state: degraded: rows of the rectified pictures"), std::string::npos) << run.err;
 }
 
 TEST_F(StereodTest, ListsCameras) {

@@ -88,9 +88,11 @@ TEST(RectifyOpenCv, SourceCoordinatesAreTheSameToAThousandthOfAPixel) {
   }
 }
 
-bool close_to_a_tie(float coordinate) {
+// Or so close to one that coordinates in single precision, as cv::remap takes them, may fall on the other
+// side.
+bool close_to_a_tie(float coordinate, float margin = 1e-3F) {
   const float fraction = coordinate - std::floor(coordinate);
-  return std::abs(fraction - 0.5F) < 1e-3F;
+  return std::abs(fraction - 0.5F) < margin;
 }
 
 TEST(RectifyOpenCv, GreyAndColorAreTheSamePixelsAsRemapTakes) {
@@ -126,6 +128,38 @@ TEST(RectifyOpenCv, GreyAndColorAreTheSamePixelsAsRemapTakes) {
   }
   EXPECT_GT(compared, 8'000'000);  // ties are rare
   EXPECT_GT(outside, 100'000);     // and some of the pixels do lie outside the source
+}
+
+// Where all four neighbours lie in the image and rounding to 1/32 px is no tie: to the byte.
+TEST(RectifyOpenCv, BilinearIsWhatRemapInterpolates) {
+  cv::RNG random(8);
+  long compared = 0, inside = 0;
+  for (const CameraCalibration& c : cameras()) {
+    const Size size = c.camera.image;
+    const Maps maps = opencv_maps(c, CV_32FC1);
+    cv::Mat grey(size.height, size.width, CV_8UC1), want;
+    random.fill(grey, cv::RNG::UNIFORM, 0, 256);
+    cv::remap(grey, want, maps.x, maps.y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    const RectifyMap map(c, {size, static_cast<std::ptrdiff_t>(grey.step[0]), 1}, Interpolation::kBilinear);
+    GreyImage out(size);
+    map.grey_rows(grey.data, {0, size.height}, out.view());
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        const float u = maps.x.at<float>(y, x), v = maps.y.at<float>(y, x);
+        if (u < 0 || v < 0 || u > static_cast<float>(size.width - 1) ||
+            v > static_cast<float>(size.height - 1)) {
+          continue;
+        }
+        ++inside;
+        ASSERT_GE(map.offset(x, y), 0) << x << ' ' << y;
+        if (close_to_a_tie(32 * u, 0.01F) || close_to_a_tie(32 * v, 0.01F)) continue;
+        ++compared;
+        ASSERT_EQ(out.at(x, y), want.at<std::uint8_t>(y, x)) << x << ' ' << y;
+      }
+    }
+  }
+  EXPECT_GT(inside, 7'000'000);
+  EXPECT_GT(compared, inside * 8 / 10);
 }
 
 TEST(RectifyOpenCv, UndistortIsTheInverseThatOpenCvFinds) {

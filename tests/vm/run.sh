@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
-# Tests with a real kernel: Debian's kernel and systemd in a virtual machine, with webcams on uvcvideo. Each scenario
-# gets a freshly booted machine. Says what is skipped where QEMU or the packages cannot be had.
+# Tests with a real kernel: Debian's kernel and systemd in a virtual machine, with webcams on uvcvideo. All scenarios run in
+# one machine, one after the other. Says what is skipped where QEMU or the packages cannot be had.
 #
-#   run.sh [--cpu MODEL] [--bin FOLDER] [--keep] [SCENARIO…]     all scenarios, if none is named
+#   run.sh [--cpu MODEL] [--bin FOLDER] [SCENARIO…]     all scenarios, if none is named
 #
-# --cpu: a CPU model of QEMU, for example Denverton; --bin: take the programs from there instead of building them;
-# --keep: keep the logs of scenarios that pass, too.
+# --cpu: a CPU model of QEMU, for example Denverton; --bin: take the programs from there instead of building them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 here=tests/vm
@@ -26,31 +25,51 @@ build() {
 # A line of a scenario's head, "# NAME: VALUE".
 head_of() { sed -n "s/^# $2: *//p" "$here/scenarios/$1.sh" | head -n 1; }
 
-# Boots a machine for one scenario; succeeds if the scenario did. Its log is in $logs/SCENARIO.
-run_scenario() {
-  local name=$1 share=$logs/$1 seconds model package
-  seconds=$(head_of "$name" seconds)
-  model=${cpu:-$(head_of "$name" cpu)}
-  rm -rf "$share"
-  mkdir -p "$share/bin"
-  cp -r "$here/guest" systemd etc "$share"
+# What the machine finds in /share. It leaves the log of each scenario there.
+fill_share() {
+  local name program package
+  rm -rf "$logs"
+  mkdir -p "$logs/bin"
+  cp -r "$here/guest" systemd etc "$logs"
+  for program in "${programs[@]}"; do cp "$bin/$program" "$logs/bin"; done
   # A package that cpack made of these very programs, for scenarios that install it.
   for package in "$bin"/../stereod_*.deb; do
-    if [[ $package -nt $bin/stereod ]]; then cp "$package" "$share"; fi
+    if [[ $package -nt $bin/stereod ]]; then cp "$package" "$logs"; fi
   done
-  cp "$here/scenarios/$name.sh" "$share/scenario.sh"
-  for program in "${programs[@]}"; do cp "$bin/$program" "$share/bin"; done
-  echo "${seconds:-120}" >"$share/seconds"
-  timeout -k 5 $((${seconds:-120} + 90)) qemu-system-x86_64 \
-    -accel tcg,thread=multi -cpu "${model:-qemu64,+ssse3,+sse4.1,+sse4.2,+popcnt}" -smp 2 -m 1024 -M q35 \
-    -nodefaults -display none -no-reboot -serial "file:$share/serial.log" \
+  for name in "${scenarios[@]}"; do
+    mkdir "$logs/$name"
+    cp "$here/scenarios/$name.sh" "$logs/$name/scenario.sh"
+    head_of "$name" seconds >"$logs/$name/seconds"
+    echo "$name" >>"$logs/order"
+  done
+}
+
+# Boots the machine, in the background, for so many seconds at most.
+boot() {
+  timeout -k 5 "$1" qemu-system-x86_64 \
+    -accel tcg,thread=multi -cpu "$cpu" -smp 2 -m 1024 -M q35 \
+    -nodefaults -display none -no-reboot -serial "file:$logs/serial.log" \
     -kernel "$image/vmlinuz" -initrd "$image/initrd.gz" \
     -append "console=ttyS0 quiet loglevel=4 panic=-1 mitigations=off nokaslr root=/dev/vda $kernel_options" \
     -drive "file=$image/rootfs.ext4,if=virtio,format=raw,snapshot=on" \
-    -virtfs "local,path=$share,mount_tag=share,security_model=none,id=share" \
-    -device virtio-rng-pci >"$share/qemu.log" 2>&1 </dev/null || true
-  rm -rf "$share/bin"
-  [[ $(cat "$share/status" 2>/dev/null) == 0 ]]
+    -virtfs "local,path=$logs,mount_tag=share,security_model=none,id=share" \
+    -device virtio-rng-pci >"$logs/qemu.log" 2>&1 </dev/null &
+  machine=$!
+}
+
+# Waits for a scenario's end, or the machine's, and says how it went.
+judge() {
+  local name=$1 status= seconds=
+  while [[ ! -f $logs/$name/result ]] && kill -0 "$machine" 2>/dev/null; do sleep 0.5; done
+  [[ ! -f $logs/$name/result ]] || read -r status seconds <"$logs/$name/result"
+  if [[ $status == 0 ]]; then
+    printf 'vm/run: %-10s passed in %d s: %s\n' "$name" "$seconds" "$(head_of "$name" shows)"
+    sed -n 's/^shown: /          /p' "$logs/$name/log"
+    return 0
+  fi
+  printf 'vm/run: %-10s FAILED; its end (all of it: %s/%s):\n' "$name" "$logs" "$name"
+  tail -q -n 40 "$logs/$name/log" 2>/dev/null || tail -q -n 20 "$logs/serial.log" "$logs/qemu.log" || true
+  return 1
 }
 
 # Cameras on the virtual USB controller sometimes do not wake up from autosuspend. The rest makes booting slower and is of
@@ -61,16 +80,14 @@ for unit in apt-daily.timer apt-daily-upgrade.timer dpkg-db-backup.timer e2scrub
   kernel_options+=" systemd.mask=$unit"
 done
 
-cpu=
-keep=
+cpu=Denverton  # an Atom: SSE4.2, no AVX
 built=
 scenarios=()
 while [[ $# -gt 0 ]]; do
   case $1 in
     --cpu) cpu=${2:?--cpu wants a model} && shift ;;
     --bin) bin=${2:?--bin wants a folder} built=yes && shift ;;
-    --keep) keep=yes ;;
-    -*) die "usage: tests/vm/run.sh [--cpu MODEL] [--bin FOLDER] [--keep] [SCENARIO…]" ;;
+    -*) die "usage: tests/vm/run.sh [--cpu MODEL] [--bin FOLDER] [SCENARIO…]" ;;
     *) scenarios+=("$1") ;;
   esac
   shift
@@ -78,8 +95,10 @@ done
 if [[ ${#scenarios[@]} -eq 0 ]]; then
   for file in "$here"/scenarios/*.sh; do scenarios+=("$(basename "$file" .sh)"); done
 fi
+allowed=60  # s; for booting and for what is between the scenarios
 for name in "${scenarios[@]}"; do
   [[ -f $here/scenarios/$name.sh ]] || die "there is no scenario '$name'; see $here/scenarios"
+  allowed=$((allowed + $(head_of "$name" seconds)))
 done
 
 prepared=0
@@ -91,19 +110,16 @@ fi
 [[ $prepared -eq 0 ]] || die "the image could not be made."
 [[ -n $built ]] || build || die "the programs could not be built."
 
+fill_share
+boot "$allowed"
+trap 'kill "$machine" 2>/dev/null || true' EXIT
 failed=()
 for name in "${scenarios[@]}"; do
-  started=$SECONDS
-  if run_scenario "$name"; then
-    printf 'vm/run: %-12s passed in %d s: %s\n' "$name" $((SECONDS - started)) "$(head_of "$name" shows)"
-    grep '^shown: ' "$logs/$name/log" | sed 's/^shown: /          /' || true
-    [[ -n $keep ]] || rm -rf "${logs:?}/$name"
-  else
-    failed+=("$name")
-    printf 'vm/run: %-12s FAILED after %d s; its end (all of it: %s/%s):\n' "$name" $((SECONDS - started)) "$logs" "$name"
-    tail -n 40 "$logs/$name/log" 2>/dev/null || tail -n 20 "$logs/$name/serial.log" || true
-  fi
+  judge "$name" || failed+=("$name")
 done
+wait "$machine" || true
+trap - EXIT
+rm -rf "${logs:?}/bin"
 if [[ ${#failed[@]} -gt 0 ]]; then
   echo "vm/run: FAILED: ${failed[*]}."
   exit 1

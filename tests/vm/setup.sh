@@ -2,11 +2,11 @@
 # Prepares, from Debian packages alone, what the tests in a virtual machine boot: Debian's kernel with the modules they
 # need, v4l2loopback built for it, and a root file system with systemd. All of it stays in a cache between runs:
 #
-#   setup.sh           prints the folder that has vmlinuz, initrd.gz and rootfs.ext4 as its last line
+#   setup.sh           prints the folder that has vmlinuz, initrd.gz and rootfs.ext4
 #
-# Ends with status 3 and one sentence where it cannot be done: then the tests are skipped, not failed. Scenarios name
-# what else they need in the guest in a line "# packages: NAME…".
+# Ends with status 3 and one sentence where it cannot be done: then the tests are skipped, not failed.
 set -euo pipefail
+exec 3>&1 1>&2  # what the tools have to say is not the answer
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/stereod/vm
 
@@ -18,7 +18,7 @@ guest_packages=(
 modules=(uvcvideo vhci-hcd v4l2loopback vivid dummy 9p 9pnet_virtio virtio_pci virtio_blk virtio_rng ext4)
 boot_modules=(virtio_pci virtio_blk ext4)  # before there is a root file system
 
-say() { echo "vm/setup: $*" >&2; }
+say() { echo "vm/setup: $*"; }
 cannot() {
   say "$*"
   exit 3
@@ -55,7 +55,7 @@ build_loopback() {
   cp "$work"/kernel/usr/src/v4l2loopback-*/*.[ch] "$source"
   echo 'obj-m := v4l2loopback.o' >"$source/Kbuild"
   make -s -C "$headers" M="$source" modules >"$work/v4l2loopback.log" 2>&1 ||
-    { cat "$work/v4l2loopback.log" >&2; say "v4l2loopback cannot be built"; exit 1; }
+    { cat "$work/v4l2loopback.log"; say "v4l2loopback cannot be built"; exit 1; }
   install -D -t "$work/kernel/lib/modules/$release/extra" "$source/v4l2loopback.ko"
   depmod -b "$work/kernel" "$release"
 }
@@ -106,8 +106,6 @@ make_initrd() {
 command -v apt-get >/dev/null || cannot "this system has no apt"
 [[ $(uname -m) == x86_64 ]] || cannot "the virtual machine is an x86-64 one, this machine is not"
 [[ $(id -u) -eq 0 ]] || cannot "making the image takes root"
-mapfile -t extra < <(sed -n 's/^# packages: *//p' "$here"/scenarios/*.sh | tr ' ' '\n' | sort -u)
-guest_packages+=("${extra[@]}")
 release=$(kernel_release)
 [[ -n $release ]] || cannot "the package lists do not know linux-image-amd64; has 'apt-get update' been run?"
 sources=()
@@ -128,11 +126,11 @@ if [[ ! -f $cache/$key/done ]]; then
   build_loopback
   make_root
   make_initrd
-  rm -rf "${cache:?}"/????????????????
+  find "$cache" -mindepth 1 -maxdepth 1 -mtime +7 -exec rm -rf {} +
   mkdir "$work/ready"
   cp --sparse=always "$work/rootfs.ext4" "$work/initrd.gz" "$work/ready"
   cp "$work/kernel/boot/vmlinuz-$release" "$work/ready/vmlinuz"
   touch "$work/ready/done"
   mv "$work/ready" "$cache/$key"
 fi
-echo "$cache/$key"
+echo "$cache/$key" >&3

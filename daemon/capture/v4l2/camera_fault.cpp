@@ -81,6 +81,8 @@ std::string_view name_of(CameraReason reason) {
       return "no memory";
     case CameraReason::kNoBandwidth:
       return "no bandwidth";
+    case CameraReason::kMoreBandwidth:
+      return "more bandwidth";
     case CameraReason::kUnplugged:
       return "unplugged";
     case CameraReason::kDriverError:

@@ -40,20 +40,21 @@ std::string_view name_of(CameraStep step);
 
 enum class CameraReason {
   kNone,
-  kNotFound,      ///< no device of that name
-  kAmbiguous,     ///< `auto` without two cameras
-  kSameCamera,    ///< left and right are one device
-  kNoCamera,      ///< the device gives no pictures
-  kNotPermitted,  ///< this user may not open it
-  kBusy,          ///< another program has it
-  kNoFormat,      ///< size or format are not offered
-  kOtherFormat,   ///< the driver made something else of the request
-  kNoMemory,      ///< no buffers
-  kNoBandwidth,   ///< the bus cannot carry it
-  kUnplugged,     ///< the device went away
-  kDriverError,   ///< any other error
-  kSilent,        ///< set up, but no frame comes
-  kOnlyDamaged,   ///< frames come, but none is a picture
+  kNotFound,       ///< no device of that name
+  kAmbiguous,      ///< `auto` without two cameras
+  kSameCamera,     ///< left and right are one device
+  kNoCamera,       ///< the device gives no pictures
+  kNotPermitted,   ///< this user may not open it
+  kBusy,           ///< another program has it
+  kNoFormat,       ///< size or format are not offered
+  kOtherFormat,    ///< the driver made something else of the request
+  kNoMemory,       ///< no buffers
+  kNoBandwidth,    ///< the bus cannot carry it
+  kMoreBandwidth,  ///< the bus may carry more than before
+  kUnplugged,      ///< the device went away
+  kDriverError,    ///< any other error
+  kSilent,         ///< set up, but no frame comes
+  kOnlyDamaged,    ///< frames come, but none is a picture
 };
 std::string_view name_of(CameraReason reason);
 

@@ -98,6 +98,7 @@ bool CameraPair::take_device(Side side, const std::string& device) {
   const std::lock_guard lock(mutex_);
   of(side).device.clear();
   of(side).flowing = false;
+  if (device.empty() && of(opposite(side)).device.empty()) begin_ladder_anew();
   if (!device.empty() && device == of(opposite(side)).device) return false;
   of(side).device = device;
   return true;
@@ -105,12 +106,18 @@ bool CameraPair::take_device(Side side, const std::string& device) {
 
 void CameraPair::set_facts(Side side, const StreamFacts& facts) {
   const std::lock_guard lock(mutex_);
-  of(side).facts = facts;
+  Camera& camera = of(side);
+  camera.facts = facts;
+  const std::string bus = bus_of(facts.device.bus);
+  if (bus.empty() || camera.bus == bus) return;
+  if (!camera.bus.empty()) begin_ladder_anew();
+  camera.bus = bus;
 }
 
 void CameraPair::set_flowing(Side side, bool flowing) {
   const std::lock_guard lock(mutex_);
   of(side).flowing = flowing;
+  if (cameras_[0].flowing && cameras_[1].flowing && on_same_bus()) carried_step_ = ladder_step_;
 }
 
 bool CameraPair::step_down(Side side, int step) {
@@ -122,19 +129,24 @@ bool CameraPair::step_down(Side side, int step) {
   return true;
 }
 
-bool CameraPair::other_flows_on_same_bus(Side side) {
+bool CameraPair::may_starve(Side side) {
   const std::lock_guard lock(mutex_);
-  const Camera& other = of(opposite(side));
-  return other.flowing && bus_of(other.facts.device.bus) == bus_of(of(side).facts.device.bus);
+  return of(opposite(side)).flowing && on_same_bus() && carried_step_ != ladder_step_;
+}
+
+bool CameraPair::on_same_bus() const { return cameras_[0].bus == cameras_[1].bus; }
+
+void CameraPair::begin_ladder_anew() {
+  ladder_step_ = 0;
+  carried_step_ = -1;
 }
 
 std::string CameraPair::bandwidth_sentence(Side side) {
   const std::lock_guard lock(mutex_);
   const Camera& own = of(side);
   const Camera& other = of(opposite(side));
-  const std::string bus = bus_of(own.facts.device.bus);
-  std::string sentence = "the bus " + bus + " cannot carry " + describe(own.facts);
-  if (!other.device.empty() && bus_of(other.facts.device.bus) == bus) {
+  std::string sentence = "the bus " + own.bus + " cannot carry " + describe(own.facts);
+  if (!other.device.empty() && on_same_bus()) {
     sentence += " beside the other camera's " + describe(other.facts);
   }
   const bool compressed = own.facts.pixels != nullptr && own.facts.pixels->work == LumaWork::kJpeg;

@@ -60,15 +60,17 @@ class CameraPair {
   V4l2Config controls(int& number);
   int controls_number() const noexcept { return controls_number_; }
 
-  /// Where on the ladder of formats both cameras stand. It only goes down, and both go together, because two
-  /// cameras on one bus share its bandwidth and because matching needs two equal pictures.
+  /// Where on the ladder of formats both cameras stand: both on one step, because two cameras on one bus
+  /// share its bandwidth and because matching needs two equal pictures. It begins anew at the top when both
+  /// cameras are gone, and when one comes back on another bus; while one streams it is not disturbed to try.
   int ladder_step() const noexcept { return ladder_step_; }
   /// `side` cannot get the bandwidth it needs at `step`. True: both have now to be set up further down.
   /// False: there is no further step.
   bool step_down(Side side, int step);
 
-  /// Whether the other camera streams on the bus that `side` is on.
-  bool other_flows_on_same_bus(Side side);
+  /// Whether the other camera streams on the bus that `side` is on, and nothing has shown yet that the bus
+  /// can carry both as they are.
+  bool may_starve(Side side);
 
   /// Says which bus is full, what both cameras ask of it, and what to do.
   std::string bandwidth_sentence(Side side);
@@ -77,8 +79,11 @@ class CameraPair {
   struct Camera {
     std::string device;
     StreamFacts facts;
+    std::string bus;  // where it is, or was when it was last there
     bool flowing = false;
   };
+  bool on_same_bus() const;
+  void begin_ladder_anew();
   Camera& of(Side side) { return cameras_[side == Side::kLeft ? 0 : 1]; }
 
   CamerasConfig config_;
@@ -86,6 +91,7 @@ class CameraPair {
   std::mutex mutex_;
   Camera cameras_[2];
   std::atomic<int> ladder_step_{0};
+  int carried_step_ = -1;  // of the ladder, at which one bus has carried both
   PhaseAlignment phase_;
   std::optional<ExposureValues> exposure_;
 };

@@ -188,6 +188,7 @@ bool CameraStream::dequeue_newest(FilledBuffer& newest, std::int64_t& start_ns, 
     }
     if (error == 0 && buffer.index >= buffers_.size()) error = EINVAL;
     if (error != 0) break;
+    count_missed(buffer.sequence);
     ++buffers_seen_;
     FrameDrop drop{};
     std::int64_t this_start_ns = 0;
@@ -214,6 +215,13 @@ bool CameraStream::dequeue_newest(FilledBuffer& newest, std::int64_t& start_ns, 
     step = CameraStep::kGiveBack;
   }
   return have && error == 0;
+}
+
+// A stream may begin with any number, and a driver that goes back has begun anew.
+void CameraStream::count_missed(std::uint32_t sequence) noexcept {
+  const auto ahead = static_cast<std::int32_t>(sequence - next_sequence_);
+  if (buffers_seen_ > 0 && ahead > 0) frames_missed_ += ahead;
+  next_sequence_ = sequence + 1;
 }
 
 FrameLease CameraStream::lend_in_place(const FilledBuffer& buffer, Frame frame) noexcept {
@@ -299,6 +307,7 @@ DropCounts CameraStream::drops() const noexcept {
 void CameraStream::count(FrameDrop drop) noexcept {
   const std::lock_guard lock(mutex_);
   ++drops_[drop];
+  if (is_damage(drop)) last_damage_ = drop;
 }
 
 }  // namespace stereod

@@ -1,6 +1,7 @@
 // A camera that has been opened: its format, its buffers, and the frames that come through them.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -66,8 +67,12 @@ class CameraStream final : public BufferOwner {
   VideoDevice& device() noexcept { return device_; }
   const StreamFacts& facts() const { return facts_; }
   DropCounts drops() const noexcept;
+  /// What was wrong with the last frame that was damaged. The camera's own thread.
+  FrameDrop last_damage() const noexcept { return last_damage_; }
   /// Frames since start(), good or not.
   std::int64_t buffers_seen() const noexcept { return buffers_seen_; }
+  /// Frames that the camera counted and that never came here, since the beginning. Any thread.
+  std::int64_t frames_missed() const noexcept { return frames_missed_; }
 
   void give_back(int buffer) noexcept override;
 
@@ -86,6 +91,7 @@ class CameraStream final : public BufferOwner {
   FrameLease lend_picture(const FilledBuffer& buffer, Frame frame, int& error) noexcept;
   int free_picture() noexcept;
   void requeue(std::uint32_t index, int& error) noexcept;
+  void count_missed(std::uint32_t sequence) noexcept;
   void count(FrameDrop drop) noexcept;
 
   VideoSystem& system_;
@@ -96,6 +102,9 @@ class CameraStream final : public BufferOwner {
   std::vector<GreyImage> pictures_;  // decoded or scaled ones
   StampKeeper stamps_;
   std::int64_t buffers_seen_ = 0;
+  FrameDrop last_damage_{};
+  std::uint32_t next_sequence_ = 0;
+  std::atomic<std::int64_t> frames_missed_{0};
 
   mutable std::mutex mutex_;  // guards what follows
   bool flowing_ = false;

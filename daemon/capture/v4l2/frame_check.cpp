@@ -36,15 +36,6 @@ std::string_view name_of(FrameDrop drop) {
   return "?";
 }
 
-std::int64_t DropCounts::damaged() const {
-  std::int64_t sum = 0;
-  for (std::size_t i = 0; i < of.size(); ++i) {
-    const auto drop = static_cast<FrameDrop>(i);
-    if (drop != FrameDrop::kSuperseded && drop != FrameDrop::kNoRoom) sum += of[i];
-  }
-  return sum;
-}
-
 bool is_complete(const FilledBuffer& buffer, std::size_t mapped, std::size_t least, FrameDrop& drop) {
   if (buffer.error) {
     drop = FrameDrop::kDriverError;

@@ -25,14 +25,16 @@ enum class FrameDrop {
 };
 inline constexpr std::size_t kFrameDrops = 10;
 std::string_view name_of(FrameDrop drop);
+/// False for a good frame that was not needed.
+constexpr bool is_damage(FrameDrop drop) {
+  return drop != FrameDrop::kSuperseded && drop != FrameDrop::kNoRoom;
+}
 
 /// How many buffers were dropped since the start, by reason.
 struct DropCounts {
   std::array<std::int64_t, kFrameDrops> of{};
   std::int64_t& operator[](FrameDrop drop) { return of[static_cast<std::size_t>(drop)]; }
   std::int64_t operator[](FrameDrop drop) const { return of[static_cast<std::size_t>(drop)]; }
-  /// Those that were damaged on the way; kSuperseded and kNoRoom are good frames not needed.
-  std::int64_t damaged() const;
 };
 
 /// Judges a buffer by what the driver says of it, before its bytes are looked at. `mapped`: the buffer's

@@ -132,10 +132,7 @@ void V4l2Camera::opened() {
 
 FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
   if (ladder_step_ != pair_->ladder_step()) {
-    fail(CameraState::kOpening, {CameraReason::kNoBandwidth, CameraStep::kSetFormat, 0,
-                                 "is set up again with less on the bus, because the other camera cannot get "
-                                 "the bandwidth it needs"});
-    retry_ns_ = 0;
+    change_format();
     return {};
   }
   if (restart_wanted_) restart_in_phase();
@@ -173,6 +170,17 @@ FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
   }
   check_silence(system_.now_ns());
   return {};
+}
+
+// The other camera has changed what both may put on the bus.
+void V4l2Camera::change_format() {
+  const bool less = pair_->ladder_step() > ladder_step_;
+  fail(CameraState::kOpening,
+       {less ? CameraReason::kNoBandwidth : CameraReason::kMoreBandwidth, CameraStep::kSetFormat, 0,
+        less ? "is set up again with less on the bus, because the other camera cannot get the bandwidth it "
+               "needs"
+             : "is set up again with its best format, because a camera has moved to another bus"});
+  retry_ns_ = 0;
 }
 
 // Starts the stream again at the moment that brings it into phase with the other camera.
@@ -235,10 +243,12 @@ void V4l2Camera::check_silence(std::int64_t now_ns) {
                     node_ + " has fallen silent; it is set up again until frames come"};
   if (damaged > 0) {
     fault.reason = CameraReason::kOnlyDamaged;
-    fault.sentence = node_ + " sends only damaged frames; check its cable, or set cameras.v4l2.format";
+    fault.sentence = node_ + " sends only damaged frames, the last one " +
+                     std::string(name_of(stream_.last_damage())) +
+                     "; check its cable, or set cameras.v4l2.format";
   } else {
     // A bus that is full may also show itself by frames that never come.
-    const bool starved = !had_frame_ && pair_->other_flows_on_same_bus(side_);
+    const bool starved = !had_frame_ && pair_->may_starve(side_);
     silent_starts_ = starved ? silent_starts_ + 1 : 0;
     if (silent_starts_ >= 2) no_bandwidth(fault);
   }
@@ -314,6 +324,7 @@ SourceReport V4l2Camera::report() const {
   report.last_fault = last_fault_;
   report.last_fault_ns = last_fault_ns_;
   report.reconnects = reconnects_;
+  report.sequence_gaps = stream_.frames_missed();
   report.decode_errors =
       drops[FrameDrop::kNoJpeg] + drops[FrameDrop::kJpegSize] + drops[FrameDrop::kJpegDamaged];
   report.incomplete = drops[FrameDrop::kDriverError] + drops[FrameDrop::kEmpty] + drops[FrameDrop::kShort];

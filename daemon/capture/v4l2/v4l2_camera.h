@@ -51,6 +51,7 @@ class V4l2Camera final : public FrameSource {
   void finish_closing(std::int64_t until_ns);
   void fail(CameraState state, CameraFault fault);
   void no_bandwidth(CameraFault& fault);
+  void change_format();
   void restart_in_phase();
   void keep_exposure();
   void set_note(const std::string& note);

@@ -25,7 +25,7 @@ template <>
 inline constexpr std::string_view kWireLayout<camera_info_t> = "diibddddddiis";
 template <>
 inline constexpr std::string_view kWireLayout<status_t> =
-    "dssssdddddddddddddddddddsdd"
+    "dssssdddddddddddddddddddsdddid"
     "ssssssssdddddddddd"
     "ssssssssdddddddddd";
 

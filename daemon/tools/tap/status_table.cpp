@@ -96,6 +96,8 @@ Lines load(const status_t& s) {
   table.add_row({"frames in", fixed(s.fps_in, 1), "/s"});
   table.add_row({"frames out", fixed(s.fps_out, 1), "/s"});
   table.add_row({"valid pixels", fixed(100 * s.valid_fraction, 1), "%"});
+  const bool known = s.row_error_points > 0;
+  table.add_row({"rows apart", known ? fixed(s.row_error_px, 2) : "-", "px"});
   table.add_row({"CPU", fixed(s.cpu_percent, 1), "%"});
   table.add_row({"memory", fixed(s.rss_mb, 1), "MB"});
   return table.lines();

@@ -1,6 +1,9 @@
 # What the scenarios share. Source it first.
 set -euo pipefail
 
+# An emulated processor does vector instructions more slowly than plain ones; this is libjpeg-turbo's switch.
+export JSIMD_FORCENONE=1
+
 left_serial=LEFT01
 right_serial=RIGHT01
 
@@ -78,18 +81,33 @@ stop_stereod() {
 # The latest status, as a table, in ./status.txt.
 get_status() { stereo-tap status --once --timeout 8 >status.txt 2>status.err; }
 
-# A row of the status table of both cameras: the left and the right value.
-camera_row() { sed -n "s/^  $1  *//p" status.txt | head -n 1; }
-# A row of that table with the lines it goes on in, as one line.
-whole_row() {
-  awk -v label="  $1 " 'index($0, label) == 1 { on = 1; print; next } /^ ? ?[^ ]|^$/ { on = 0 } on' status.txt |
-    tr -s ' \n' ' '
+# What the latest status says of a camera: of_camera left|right ROW. A text that goes on in further lines is put together.
+of_camera() {
+  awk -v side="$1" -v label="  $2 " '
+    /^camera / { right = index($0, " right") }
+    index($0, label) == 1 { on = 1 }
+    on && index($0, label) != 1 && /^ ? ?[^ ]|^$/ { exit }
+    on { print side == "left" ? substr($0, 17, right - 17) : substr($0, right) }' status.txt | tr -s ' \n' ' ' |
+    sed 's/^ //; s/ $//'
 }
+# says SIDE ROW PATTERN [ROW PATTERN]…: whether that is what the status says of a camera now.
+says() {
+  local side=$1
+  shift
+  get_status || return 1
+  while [[ $# -gt 0 ]]; do
+    [[ $(of_camera "$side" "$1") =~ $2 ]] || return 1
+    shift 2
+  done
+}
+# Waits until the status says so.
+need() { wait_for 20 says "$@" || { cat status.txt; tail -n 20 stereod.log; fail "the status should say: $*"; }; }
+# A count of a camera: the first number of the row.
+count_of() { of_camera "$1" "$2" | sed 's/[^0-9].*//'; }
 # One number behind a label of the table.
 number_of() { sed -n "s/.*$1  *\([0-9][0-9.]*\).*/\1/p" status.txt | head -n 1; }
 
-says() { get_status && grep -qE "$1" status.txt; }
-both_stream() { get_status && [[ $(camera_row state) =~ ^streaming\ +streaming ]]; }
+both_stream() { says left state ^streaming && [[ $(of_camera right state) == streaming ]]; }
 frames_flow() {
   both_stream && awk -v f="$(number_of 'frames out')" 'BEGIN { exit !(f > 0) }'
 }
@@ -100,3 +118,19 @@ need_streaming() {
 
 descriptors() { find "/proc/$stereod_pid/fd" -mindepth 1 | wc -l; }
 memory_kb() { awk '/^VmRSS:/ { print $2 }' "/proc/$stereod_pid/status"; }
+
+# After each fault both stream again, with the descriptors and the memory that stereod had. What opens and closes for the first
+# time may allocate: remember them after that.
+remember_resources() {
+  base_descriptors=$(descriptors)
+  base_memory=$(memory_kb)
+}
+# While a camera is looked for, one more is open for a moment.
+as_many_descriptors() { [[ $(descriptors) -eq $base_descriptors ]]; }
+need_recovery() {
+  need_streaming 40 "after $1 both cameras should stream"
+  wait_for 10 as_many_descriptors || { ls -l "/proc/$stereod_pid/fd"; fail "$1: $base_descriptors descriptors before"; }
+  grown=$(($(memory_kb) - base_memory))
+  echo "after $1: $(descriptors) descriptors, memory $(memory_kb) kB"
+  [[ $grown -lt 1024 ]] || fail "after $1 the memory has grown by $grown kB"
+}

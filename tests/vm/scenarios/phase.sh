@@ -1,4 +1,4 @@
-# shows: two cameras that start 16 ms apart are brought into phase by restarting one
+# shows: two cameras that start 16 ms apart are brought into phase by restarting one; that they drift apart is seen
 # seconds: 180
 . /share/guest/lib.sh
 start_cameras
@@ -18,7 +18,9 @@ size=320x240 start_stereod "serial:$left_serial" "serial:$right_serial" mjpeg 'a
     target_skew_ms: 3
     align_tries: 12'
 need_streaming 60
-if ! wait_for 90 says 'phase alignment +aligned'; then
+# With a median skew below 3 ms. Once aligned, it stays so up to twice the target.
+aligned() { get_status && grep -q '^phase alignment  *aligned, skew -\{0,1\}[0-2]\.' status.txt; }
+if ! wait_for 90 aligned; then
   cat status.txt stereod.log
   # The stamps are taken by the guest's clock when a frame begins to arrive: on a busy machine much too late.
   if [[ $jitter -gt 1500 ]]; then
@@ -28,9 +30,12 @@ if ! wait_for 90 says 'phase alignment +aligned'; then
   fail "the cameras were not brought into phase, though their stamps are only $jitter µs off"
 fi
 cat status.txt stereod.log
-skew=$(sed -n 's/.*aligned, skew -*\([0-9]*\).*/\1/p' status.txt)
 restarts=$(sed -n 's/.* \([0-9]*\) restarts.*/\1/p' status.txt)
 shown "$(sed -n 's/^phase alignment  *//p' status.txt) (stamps $jitter µs off)"
-[[ $skew -lt 3 ]] || fail "the median skew is $skew ms"
 [[ $restarts -ge 1 ]] || fail "they were in phase from the start, so nothing was shown"
+
+tell right drift 1500  # a crystal so bad that it takes seconds, not minutes
+drifted() { get_status && grep -q "^phase alignment  *drifted" status.txt; }
+wait_for 40 drifted || { cat status.txt; fail "nobody noticed that the cameras have drifted apart"; }
+shown "$(sed -n 's/^phase alignment  *//p' status.txt)"
 stop_stereod

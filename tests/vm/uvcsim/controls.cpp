@@ -14,6 +14,7 @@ constexpr std::uint8_t kBrightness = 2, kGain = 4, kPowerLine = 5, kWhiteBalance
 constexpr std::int32_t kManual = 1, kAperturePriority = 8;  // of the exposure mode
 constexpr std::int32_t kUsualTime = 156;                    // 100 µs
 constexpr std::uint8_t kWrongState = 4, kNoSuchControl = 6;
+constexpr int kReadable = 1, kWritable = 2, kOverruled = 4, kChanges = 8;  // of its information (4.1.2)
 
 Bytes number(std::int32_t value, int length) {
   Bytes bytes;
@@ -81,8 +82,12 @@ std::optional<Bytes> Controls::answer(ControlRequest request, std::uint8_t unit,
       return number(control->usual, control->length);
     case ControlRequest::kGetLength:
       return number(control->length, 2);
-    case ControlRequest::kGetInfo:  // can be read and written; not while it is automatic
-      return number(automatic(*control) ? 7 : 3, 1);
+    case ControlRequest::kGetInfo: {
+      // The host reads a control that does not say that it changes by itself only once.
+      const bool changes = control->unit == kCameraUnit && control->selector == kExposureTime;
+      return number(kReadable | kWritable | (automatic(*control) ? kOverruled : 0) | (changes ? kChanges : 0),
+                    1);
+    }
   }
   error_code_ = kNoSuchControl;
   return std::nullopt;

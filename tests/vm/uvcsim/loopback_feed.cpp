@@ -1,4 +1,5 @@
-// loopback-feed: known stereo pairs as YUYV through two v4l2loopback devices, and as files to compare with.
+// loopback-feed: known stereo pairs as YUYV or RGB through two v4l2loopback devices, and as files to compare
+// with.
 #include <fcntl.h>
 #include <linux/videodev2.h>
 #include <sys/ioctl.h>
@@ -42,29 +43,39 @@ void write_pairs(const std::string& folder) {
   }
 }
 
-int open_output(const std::string& device) {
+Bytes rgb_bytes(const GreyImage& picture) {
+  Bytes bytes;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) bytes.insert(bytes.end(), 3, picture.row(y)[x]);
+  }
+  return bytes;
+}
+
+int open_output(const std::string& device, bool rgb) {
+  const std::uint32_t bytes_per_pixel = rgb ? 3 : 2;
   const int file = ::open(device.c_str(), O_RDWR | O_CLOEXEC);
   v4l2_format format{};
   format.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
   format.fmt.pix.width = kSize.width;
   format.fmt.pix.height = kSize.height;
-  format.fmt.pix.pixelformat = V4L2_PIX_FMT_YUYV;
+  format.fmt.pix.pixelformat = rgb ? V4L2_PIX_FMT_RGB24 : V4L2_PIX_FMT_YUYV;
   format.fmt.pix.field = V4L2_FIELD_NONE;
-  format.fmt.pix.bytesperline = kSize.width * 2;
-  format.fmt.pix.sizeimage = kSize.width * kSize.height * 2;
+  format.fmt.pix.bytesperline = kSize.width * bytes_per_pixel;
+  format.fmt.pix.sizeimage = kSize.width * kSize.height * bytes_per_pixel;
   if (file < 0 || ::ioctl(file, VIDIOC_S_FMT, &format) != 0) {
     throw std::system_error(errno, std::generic_category(), device);
   }
   return file;
 }
 
-[[noreturn]] void feed(const std::array<std::string, 2>& devices, double fps) {
+[[noreturn]] void feed(const std::array<std::string, 2>& devices, double fps, bool rgb) {
   std::array<std::vector<Bytes>, 2> pictures;
   std::array<int, 2> files{};
   for (std::size_t side = 0; side < 2; ++side) {
-    files[side] = open_output(devices[side]);
+    files[side] = open_output(devices[side], rgb);
     for (int frame = 0; frame < kSceneFrames; ++frame) {
-      pictures[side].push_back(yuyv_bytes(render_scene(side == 0 ? Eye::kLeft : Eye::kRight, kSize, frame)));
+      const GreyImage picture = render_scene(side == 0 ? Eye::kLeft : Eye::kRight, kSize, frame);
+      pictures[side].push_back(rgb ? rgb_bytes(picture) : yuyv_bytes(picture));
     }
   }
   auto next = std::chrono::steady_clock::now();
@@ -85,13 +96,15 @@ int main_with(int argc, char** argv) {
   std::array<std::string, 2> devices;
   std::string folder;
   double fps = 5;
+  bool rgb = false;
   app.add_option("--left", devices[0], "device of the left pictures")->required();
   app.add_option("--right", devices[1], "device of the right pictures")->required();
   app.add_option("--pairs", folder, "existing folder for the pairs as files")->required();
   app.add_option("--fps", fps, "pairs a second")->check(CLI::Range(0.1, 120.0));
+  app.add_flag("--rgb", rgb, "as RGB, not as YUYV");
   CLI11_PARSE(app, argc, argv);
   write_pairs(folder);
-  feed(devices, fps);
+  feed(devices, fps, rgb);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-// How far apart the rows of two rectified pictures are, without any board.
+// How far apart the rows of two rectified pictures are, from points found in both.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "core/image.h"
 
@@ -16,10 +16,6 @@ struct RowMatch {
   float disparity_px = 0;
 };
 
-/// Well-textured points of the left picture, searched for in the right one some rows up and down (a fortieth
-/// of the height, at least 6), a quarter of the width to the left and a little to the right, and back again.
-std::vector<RowMatch> match_rows(GreyView left, GreyView right);
-
 /// What the points say together. A single point is only exact to a few tenths of a pixel, the median of many
 /// is far better; so the image is cut into three by three parts.
 struct Misalignment {
@@ -27,10 +23,11 @@ struct Misalignment {
   double row_error_px = 0;   ///< mean over the points of |median of their part|
   double row_offset_px = 0;  ///< median over all: what is common
   double worst_px = 0;       ///< of a part
-  int worst_part = 0;        ///< see part_in_words()
+  int worst_part = 0;        ///< 0 … 8, row by row
 };
 
-/// Nothing if there are too few points to tell: below 40.
-std::optional<Misalignment> misalignment(const std::vector<RowMatch>& matches, Size image);
+/// Nothing if there are too few points to tell: below 40, or spread so thinly that fewer than half of that
+/// lie in parts with at least 8.
+std::optional<Misalignment> misalignment(std::span<const RowMatch> matches, Size image);
 
 }  // namespace stereod

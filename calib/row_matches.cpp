@@ -1,4 +1,4 @@
-#include "calib/misalignment.h"
+#include "calib/row_matches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "calib/opencv_image.h"
-#include "calib/pair_consensus.h"
 
 namespace stereod {
 
@@ -79,32 +78,6 @@ std::vector<RowMatch> match_rows(GreyView left_view, GreyView right_view) {
     matches.push_back({from[i].x, from[i].y, from[i].y - exact[i].y, from[i].x - exact[i].x});
   }
   return matches;
-}
-
-std::optional<Misalignment> misalignment(const std::vector<RowMatch>& matches, Size image) {
-  constexpr std::size_t kFewest = 40, kFewestInPart = 8;
-  if (matches.size() < kFewest) return std::nullopt;
-  Misalignment result;
-  std::vector<double> all;
-  std::array<std::vector<double>, 9> parts;
-  for (const RowMatch& match : matches) {
-    const int column = std::clamp(static_cast<int>(3 * match.x / static_cast<float>(image.width)), 0, 2);
-    const int row = std::clamp(static_cast<int>(3 * match.y / static_cast<float>(image.height)), 0, 2);
-    parts[static_cast<std::size_t>(3 * row + column)].push_back(match.row_offset_px);
-    all.push_back(match.row_offset_px);
-  }
-  double sum = 0;
-  for (std::size_t part = 0; part < parts.size(); ++part) {
-    if (parts[part].size() < kFewestInPart) continue;
-    const double offset = std::abs(median(parts[part]));
-    result.points += parts[part].size();
-    sum += offset * static_cast<double>(parts[part].size());
-    if (offset > result.worst_px) result.worst_px = offset, result.worst_part = static_cast<int>(part);
-  }
-  if (result.points < kFewest / 2) return std::nullopt;
-  result.row_error_px = sum / static_cast<double>(result.points);
-  result.row_offset_px = median(all);
-  return result;
 }
 
 }  // namespace stereod

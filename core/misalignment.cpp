@@ -1,0 +1,46 @@
+#include "core/misalignment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace stereod {
+
+namespace {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::optional<Misalignment> misalignment(std::span<const RowMatch> matches, Size image) {
+  constexpr std::size_t kFewest = 40, kFewestInPart = 8;
+  if (matches.size() < kFewest) return std::nullopt;
+  Misalignment result;
+  std::vector<double> all;
+  std::array<std::vector<double>, 9> parts;
+  for (const RowMatch& match : matches) {
+    const int column = std::clamp(static_cast<int>(3 * match.x / static_cast<float>(image.width)), 0, 2);
+    const int row = std::clamp(static_cast<int>(3 * match.y / static_cast<float>(image.height)), 0, 2);
+    parts[static_cast<std::size_t>(3 * row + column)].push_back(match.row_offset_px);
+    all.push_back(match.row_offset_px);
+  }
+  double sum = 0;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    if (parts[part].size() < kFewestInPart) continue;
+    const double offset = std::abs(median(parts[part]));
+    result.points += parts[part].size();
+    sum += offset * static_cast<double>(parts[part].size());
+    if (offset > result.worst_px) result.worst_px = offset, result.worst_part = static_cast<int>(part);
+  }
+  if (result.points < kFewest / 2) return std::nullopt;
+  result.row_error_px = sum / static_cast<double>(result.points);
+  result.row_offset_px = median(all);
+  return result;
+}
+
+}  // namespace stereod

@@ -1,0 +1,58 @@
+// Whether the calibration still fits the cameras, from the frames that are matched anyway.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+
+#include "core/row_probe.h"
+
+namespace stereod {
+
+/// What the frames of the last seconds show.
+struct AlignmentFigures {
+  std::optional<Misalignment> misalignment;  ///< nothing: too few points were found to tell
+  double found_share = 1;    ///< of the points that have texture, how many were found in the other picture
+  std::size_t searched = 0;  ///< so many points that is
+  double cost_share = 0;     ///< time spent on it since the start / time spent on matching
+};
+
+/// Probes a frame now and then, so seldom that it stays below kShare of the time that matching takes,
+/// whatever the CPU. Remembers what was found in the last kWindow_s, or longer where that were few points.
+class AlignmentMonitor {
+ public:
+  static constexpr double kShare = 0.015;
+
+  AlignmentMonitor(Size image, int min_disparity, int disparities);
+
+  /// A frame whose matching took `match_ns`. One thread; waits for nothing but figures() being read.
+  void frame_matched(const ProbedFrame& left, const ProbedFrame& right, std::int64_t match_ns) noexcept;
+
+  AlignmentFigures figures() const;
+
+ private:
+  static constexpr std::size_t kPoints = 1024;
+  static constexpr double kWindow_s = 4, kLongest_s = 30;
+  static constexpr std::size_t kEnough = 60;  // points found; with fewer in the window older ones count too,
+  static constexpr std::size_t kMany = 300;   // if so many were searched, not
+
+  struct Point {
+    std::int64_t at_ns;
+    bool found;
+    RowMatch match;
+  };
+
+  void remember(const Point& point) noexcept { points_[count_++ % kPoints] = point; }
+
+  Size image_;
+  RowProbe probe_;
+  double credit_ns_ = 0;
+  mutable std::mutex mutex_;
+  std::array<Point, kPoints> points_{};  // a ring
+  std::size_t count_ = 0;
+  std::int64_t spent_ns_ = 0, matched_ns_ = 0;
+};
+
+}  // namespace stereod

@@ -1,0 +1,177 @@
+// Rectification beside OpenCV's: the table of runs and cv::remap on one picture of 640×480.
+#include <cstdlib>
+#include <iostream>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "core/match/isa.h"
+#include "core/rectify_map.h"
+#include "tests/bench/bench_images.h"
+#include "tests/bench/interleaved.h"
+#include "tests/bench/tables.h"
+
+namespace stereod::bench {
+namespace {
+
+constexpr int kBatch =
+    16;  // pictures in a row, without the workers being put to sleep and woken between them
+
+/// A webcam's lens and a rig that is a little askew, as in bench_thesis.
+CameraCalibration webcam_calibration(Size size) {
+  CameraCalibration calibration;
+  CameraModel& camera = calibration.camera;
+  camera.image = size;
+  camera.fx = camera.fy = 535;
+  camera.cx = 327;
+  camera.cy = 247;
+  camera.k1 = -0.27;
+  camera.k2 = 0.09;
+  camera.p1 = 0.001;
+  camera.p2 = -0.0008;
+  calibration.rotation = rotation_about({0.012, -0.02, 0.008});
+  calibration.projection = {500, 500, 320, 240};
+  return calibration;
+}
+
+struct CvMaps {
+  cv::Mat x, y;             // 32-bit floats
+  cv::Mat fixed, fraction;  // 16-bit pairs, cv::remap's fastest format
+};
+
+CvMaps cv_maps(const CameraCalibration& c, Interpolation interpolation) {
+  const CameraModel& m = c.camera;
+  const cv::Mat camera = (cv::Mat_<double>(3, 3) << m.fx, 0, m.cx, 0, m.fy, m.cy, 0, 0, 1);
+  const cv::Mat lens = (cv::Mat_<double>(1, 5) << m.k1, m.k2, m.p1, m.p2, m.k3);
+  const cv::Matx33d rotation(c.rotation.m.data());
+  const auto& p = c.projection;
+  const cv::Mat projection = (cv::Mat_<double>(3, 3) << p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1);
+  CvMaps maps;
+  cv::initUndistortRectifyMap(camera, lens, rotation, projection, {m.image.width, m.image.height}, CV_32FC1,
+                              maps.x, maps.y);
+  cv::convertMaps(maps.x, maps.y, maps.fixed, maps.fraction, CV_16SC2,
+                  interpolation == Interpolation::kNearest);
+  return maps;
+}
+
+struct Task {
+  std::string name;
+  cv::Mat source;
+  Interpolation interpolation;
+  double wanted_one, wanted_two;  // times as fast as cv::remap on one thread, as one thread on two
+};
+
+void rectify(const RectifyMap& map, const cv::Mat& source, cv::Mat& out, RowRange rows) {
+  const Size size = map.size();
+  const auto step = static_cast<std::ptrdiff_t>(out.step);
+  if (source.channels() == 1) {
+    map.grey_rows(source.data, rows, {out.data, size.width, size.height, step});
+  } else {
+    map.color_rows(source.data, rows, {reinterpret_cast<Rgb*>(out.data), size.width, size.height, step});
+  }
+}
+
+/// kBatch pictures, each worker the same band of all of them: as in the daemon, whose workers are at work
+/// anyway when rows are to be rectified.
+void rectify_batch(const RectifyMap& map, const cv::Mat& source, cv::Mat& out, WorkerPool& pool) {
+  pool.run(pool.workers(), [&](int band, int) {
+    for (int picture = 0; picture < kBatch; ++picture) {
+      rectify(map, source, out, band_rows(source.rows, band, pool.workers()));
+    }
+  });
+}
+
+void measure(const Task& task, int rounds) {
+  const Size size{task.source.cols, task.source.rows};
+  const CameraCalibration calibration = webcam_calibration(size);
+  const CvMaps maps = cv_maps(calibration, task.interpolation);
+  const int flag = task.interpolation == Interpolation::kNearest ? cv::INTER_NEAREST : cv::INTER_LINEAR;
+  const RectifyMap map(calibration,
+                       {size, static_cast<std::ptrdiff_t>(task.source.step), task.source.channels()},
+                       task.interpolation);
+  cv::Mat by_floats, by_fixed, by_us(task.source.size(), task.source.type());
+  WorkerPool one(1), two(2);
+  InterleavedRun run;
+  run.add("floats", [&] { cv::remap(task.source, by_floats, maps.x, maps.y, flag); });
+  run.add("fixed", [&] { cv::remap(task.source, by_fixed, maps.fixed, maps.fraction, flag); });
+  run.add("ours", [&] { rectify(map, task.source, by_us, {0, size.height}); });
+  run.add("batch 1", [&] { rectify_batch(map, task.source, by_us, one); });
+  run.add("batch 2", [&] { rectify_batch(map, task.source, by_us, two); });
+  const InterleavedResults results = run.run(rounds);
+
+  print_row(task.name,
+            {ms(results.of("floats").best), ms(results.of("fixed").best), ms(results.of("ours").best),
+             times(results.ratio("floats", "ours")), times(results.ratio("fixed", "ours")),
+             times(results.of("batch 1").best / results.of("batch 2").best),
+             std::to_string(map.bytes() / 1000) + " kB"});
+  print_row("  wanted", {"", "", "", times(task.wanted_one), times(task.wanted_one), times(task.wanted_two),
+                         "at most 1300 kB"});
+  cv::Mat difference;
+  cv::absdiff(by_fixed.reshape(1), by_us.reshape(1), difference);
+  std::cout << "  bytes that differ from cv::remap's: " << cv::countNonZero(difference) << " of "
+            << difference.total() << "\n";
+}
+
+/// What a camera that gives YUYV, two bytes a pixel, costs.
+void measure_packed(const cv::Mat& grey, int rounds) {
+  const Size size{grey.cols, grey.rows};
+  const cv::Mat parts[] = {grey, grey};
+  cv::Mat packed;
+  cv::merge(parts, 2, packed);
+  InterleavedRun run;
+  std::vector<RectifyMap> maps;
+  for (const Interpolation interpolation : {Interpolation::kNearest, Interpolation::kBilinear}) {
+    for (const int stride : {1, 2}) {
+      maps.emplace_back(webcam_calibration(size), SourceLayout{size, size.width * stride, stride},
+                        interpolation);
+    }
+  }
+  GreyImage out(size);
+  Cells headings, cells;
+  for (const RectifyMap& map : maps) {
+    const bool plain = map.layout().pixel_stride == 1;
+    headings.push_back(std::string(plain ? "grey " : "YUYV ") + std::string(name_of(map.interpolation())));
+    run.add(headings.back(), [&map, &out, source = plain ? grey.data : packed.data] {
+      map.grey_rows(source, {0, map.size().height}, out.view());
+    });
+  }
+  const InterleavedResults results = run.run(rounds);
+  for (const std::string& name : headings) cells.push_back(ms(results.of(name).best));
+  std::cout << "\n";
+  print_row("", headings);
+  print_row("one thread", cells);
+}
+
+void measure_all(int rounds) {
+  const std::optional<MatPair> aloe = load_aloe_vga();
+  if (!aloe) {
+    std::cout << "No Aloe pictures; install the package opencv-doc.\n";
+    return;
+  }
+  const cv::Mat grey = grey_of(aloe->left);
+  print_row(
+      "", {"remap floats", "remap 16SC2", "ours", "floats / ours", "16SC2 / ours", "1 / 2 threads", "table"});
+  measure({"grey, nearest", grey, Interpolation::kNearest, 6, 1.8}, rounds);
+  measure({"24-bit colour, nearest", aloe->left, Interpolation::kNearest, 4, 1.8}, rounds);
+  measure({"grey, bilinear", grey, Interpolation::kBilinear, 1.5, 1.8}, rounds);
+  measure_packed(grey, rounds);
+}
+
+}  // namespace
+}  // namespace stereod::bench
+
+int main(int argc, char** argv) {
+  const int rounds = argc > 1 ? std::atoi(argv[1]) : 60;
+  if (rounds < 1) {
+    std::cerr << "usage: bench_rectify [rounds, at least 1]\n";
+    return 2;
+  }
+  cv::setNumThreads(1);
+  std::cout << "OpenCV " << CV_VERSION << " remap on one thread and ours, one picture of 640x480, " << rounds
+            << " rounds; bilinear with " << stereod::name_of(stereod::resolve_isa(stereod::Isa::kAuto))
+            << ".\n";
+  stereod::bench::measure_all(rounds);
+  return 0;
+}

@@ -1,0 +1,135 @@
+// What the daemon notices of cameras that no longer stand as they were calibrated, and what it does not take
+// for it.
+#include "daemon/pipeline/alignment_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "daemon/capture/synthetic_scene.h"
+#include "daemon/imagefile/read_image.h"
+#include "daemon/service/status_reporter.h"
+
+namespace stereod {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kLong_ns = 1'000'000'000;  // so that every frame is looked at
+
+GreyImage lowered(const GreyImage& picture, int rows) {
+  GreyImage out(picture.size());
+  for (int y = 0; y < out.height(); ++y) {
+    std::copy_n(picture.row(std::clamp(y - rows, 0, out.height() - 1)), out.width(), out.row(y));
+  }
+  return out;
+}
+
+struct Side {
+  Side(const GreyImage& picture, const CameraCalibration* camera, Interpolation interpolation)
+      : map(camera != nullptr ? RectifyMap(*camera, layout(picture), interpolation)
+                              : RectifyMap::identity(layout(picture))),
+        mask(map.mask()) {}
+  static SourceLayout layout(const GreyImage& picture) {
+    return {picture.size(), picture.view().stride(), 1};
+  }
+  RectifyMap map;
+  ValidityMask mask;
+};
+
+TEST(AlignmentMonitor, NoticesACameraThatIsKnockedAndThatItStandsRightAgain) {
+  constexpr int kPictures = 4;
+  const SyntheticScene scene({640, 480}, kPictures);
+  const Calibration& c = scene.calibration();
+  std::vector<GreyImage> lefts, rights;
+  for (int i = 0; i < kPictures; ++i) {
+    lefts.push_back(scene.render_left(i)), rights.push_back(scene.render_right(i));
+  }
+  for (const Interpolation interpolation : {Interpolation::kNearest, Interpolation::kBilinear}) {
+    AlignmentMonitor monitor(scene.size(), 0, 64);
+    KnockDetector detector;
+    const Side left(lefts[0], &c.left, interpolation), right(rights[0], &c.right, interpolation);
+    // By how many rows the right camera's pictures are lowered. So many frames that earlier ones are
+    // forgotten.
+    const auto play = [&](int rows) {
+      std::vector<GreyImage> lower;
+      for (const GreyImage& picture : rights) lower.push_back(lowered(picture, rows));
+      for (std::size_t frame = 0; frame < 1200; ++frame) {
+        monitor.frame_matched({left.map, left.mask, lefts[frame % kPictures].row(0)},
+                              {right.map, right.mask, lower[frame % kPictures].row(0)}, kLong_ns);
+      }
+      return monitor.figures();
+    };
+    const AlignmentFigures good = play(0);
+    ASSERT_TRUE(good.misalignment.has_value());
+    EXPECT_LT(good.misalignment->row_error_px, 0.3);
+    EXPECT_GT(good.found_share, 0.6);
+    EXPECT_EQ(detector.judge(good), "");
+
+    const AlignmentFigures knocked = play(3);
+    ASSERT_TRUE(knocked.misalignment.has_value());
+    EXPECT_NEAR(knocked.misalignment->row_error_px, 3, 0.5);
+    EXPECT_EQ(detector.judge(knocked).rfind("rows of the rectified pictures do not lie side by side", 0), 0U);
+
+    EXPECT_EQ(detector.judge(play(0)), "");
+    // So far that nothing is found.
+    EXPECT_EQ(detector.judge(play(120)).rfind("hardly anything of the left picture is found", 0), 0U);
+    EXPECT_EQ(detector.judge(play(0)), "");
+  }
+}
+
+TEST(AlignmentMonitor, ProbesOnlyWhatMatchingHasPaidFor) {
+  const SyntheticScene scene({640, 480}, 1);
+  const GreyImage l = scene.render_left(0), r = scene.render_right(0);
+  const Side left(l, nullptr, Interpolation::kNearest), right(r, nullptr, Interpolation::kNearest);
+  const auto searched = [&](std::int64_t match_ns) {
+    AlignmentMonitor monitor(scene.size(), 0, 64);
+    for (int frame = 0; frame < 300; ++frame) {
+      monitor.frame_matched({left.map, left.mask, l.row(0)}, {right.map, right.mask, r.row(0)}, match_ns);
+    }
+    return monitor.figures().searched;
+  };
+  EXPECT_EQ(searched(0), 0U);
+  EXPECT_LT(searched(10'000), searched(kLong_ns) / 2);  // 0.15 µs are too little for any CPU
+}
+
+TEST(AlignmentMonitor, KnowsNothingAtFirst) {
+  const AlignmentMonitor monitor({640, 480}, 0, 64);
+  EXPECT_FALSE(monitor.figures().misalignment.has_value());
+  EXPECT_EQ(monitor.figures().searched, 0U);
+  EXPECT_EQ(KnockDetector().judge(monitor.figures()), "");
+}
+
+fs::path datasets() {
+  if (const char* set = std::getenv("STEREO_DATASETS")) return set;
+  return fs::path(STEREOD_SOURCE_DIR) / ".." / "shared" / "datasets";
+}
+
+TEST(AlignmentMonitor, TakesNoRealPairThatIsAlignedForAKnock) {
+  if (!fs::exists(datasets())) GTEST_SKIP() << datasets() << " is not here";
+  int sets = 0, known = 0;
+  KnockDetector detector;  // as if a robot went from one scene to the next
+  for (const fs::directory_entry& entry : fs::directory_iterator(datasets())) {
+    if (!entry.path().filename().string().starts_with("mb")) continue;
+    const GreyImage l = read_grey(entry.path() / "left.png"), r = read_grey(entry.path() / "right.png");
+    const Side left(l, nullptr, Interpolation::kNearest), right(r, nullptr, Interpolation::kNearest);
+    AlignmentMonitor monitor(l.size(), 0, 64);
+    for (int frame = 0; frame < 300; ++frame) {
+      monitor.frame_matched({left.map, left.mask, l.row(0)}, {right.map, right.mask, r.row(0)}, kLong_ns);
+    }
+    const AlignmentFigures figures = monitor.figures();
+    EXPECT_EQ(detector.judge(figures), "") << entry.path();
+    ++sets;
+    if (!figures.misalignment) continue;
+    ++known;
+    EXPECT_LT(figures.misalignment->row_error_px, 0.3) << entry.path();
+  }
+  EXPECT_GE(sets, 18);
+  EXPECT_GE(known, 15);
+}
+
+}  // namespace
+}  // namespace stereod

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Unpacks what stereod is built against for a foreign machine: Debian's libraries and headers of that architecture, from
+# this machine's own apt sources, and a list of their packages, from which dependencies are told when packages are made.
+#   make-sysroot.sh ARCH [--again]        ARCH: arm64, armhf or i386; prints the folder, which is made only once
+# It lies in $STEREOD_SYSROOTS, or in .cache/stereod/sysroots in the home directory.
+set -euo pipefail
+
+die() {
+  echo "make-sysroot: $*" >&2
+  exit 1
+}
+
+arch=${1:-}
+case $arch in
+  arm64 | armhf | i386) ;;
+  *) die "usage: toolchain/make-sysroot.sh arm64|armhf|i386 [--again]" ;;
+esac
+sysroots=${STEREOD_SYSROOTS:-$HOME/.cache/stereod/sysroots}
+sysroot=$sysroots/$arch
+if [[ -e $sysroot/.complete && ${2:-} != --again ]]; then
+  echo "$sysroot"
+  exit 0
+fi
+command -v mmdebstrap >/dev/null || die "no mmdebstrap here: apt install mmdebstrap"
+
+packages=libc6-dev,libstdc++-12-dev,liblcm-dev,libv4l-dev,libyaml-cpp-dev,libspdlog-dev,libcli11-dev
+packages+=,libturbojpeg0-dev,libpng-dev,libsystemd-dev,libgtest-dev,libgmock-dev,libcpp-httplib-dev
+
+# Debian's own sources only: others need not have the architecture, nor may their packages get in.
+sources=()
+for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/sources.list.d/*.list; do
+  if [[ -s $file ]] && grep -q 'bookworm' "$file" && grep -qE '^(deb|Suites:).*bookworm( |$|-)' "$file" &&
+    grep -q 'main' "$file" && grep -qiE 'debian' "$file" && ! grep -qiE 'cloud|nodistro' "$file"; then
+    sources+=("$file")
+  fi
+done
+[[ ${#sources[@]} -gt 0 ]] || die "no apt sources of Debian 12 in /etc/apt."
+
+mkdir -p "$sysroots"
+rm -rf "$sysroot"
+log=$sysroots/$arch.log
+mmdebstrap --variant=extract --architectures="$arch" --include="$packages" \
+  --dpkgopt='path-exclude=/usr/share/man/*' --dpkgopt='path-exclude=/usr/share/locale/*' \
+  --extract-hook="mkdir -p '$sysroot.debs' && cp \"\$1\"/var/cache/apt/archives/*.deb '$sysroot.debs'" \
+  bookworm "$sysroot" "${sources[@]}" >"$log" 2>&1 || die "mmdebstrap failed; see $log"
+
+# Links that start at the root would lead out of the sysroot.
+find "$sysroot" -xtype l -lname '/*' | while read -r link; do
+  target=$(readlink "$link")
+  ln -snf "$(realpath -m --relative-to="$(dirname "$link")" "$sysroot$target")" "$link"
+done
+
+# Unpacked packages are not known to dpkg. dpkg-shlibdeps looks libraries up by the path it found them under, which begins
+# with the sysroot, in the database that DPKG_ADMINDIR names.
+admin=$sysroot/var/lib/dpkg
+rm -rf "$admin"
+mkdir -p "$admin/info" "$admin/updates" "$admin/triggers"
+echo 1 >"$admin/info/format"
+: >"$admin/status" && : >"$admin/diversions" && : >"$admin/statoverride" && echo "$arch" >"$admin/arch"
+for deb in "$sysroot.debs"/*.deb; do
+  control=$(mktemp -d)
+  dpkg-deb -e "$deb" "$control"
+  name=$(dpkg-deb -f "$deb" Package)
+  key=$name
+  [[ $(dpkg-deb -f "$deb" Multi-Arch) != same ]] || key=$name:$arch
+  for file in shlibs symbols; do [[ ! -f $control/$file ]] || cp "$control/$file" "$admin/info/$key.$file"; done
+  dpkg-deb --fsys-tarfile "$deb" | tar -t | sed -e "s#^\.#$sysroot#" -e 's#/$##' >"$admin/info/$key.list"
+  { echo "Package: $name"; echo "Status: install ok installed"; sed '/^Package:/d' "$control/control"; echo; } >>"$admin/status"
+  rm -rf "$control"
+done
+rm -rf "$sysroot.debs"
+touch "$sysroot/.complete"
+echo "$sysroot"

@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# Writes a software bill of materials (SPDX 2.3, tag-value): every library the programs load, directly or through another
+# one, and every library of which only headers were compiled in, with the Debian package and version it came from.
+#   bill-of-materials.sh --version V --sysroot FOLDER --objdump PROGRAM --output FILE PROGRAM…
+# An empty sysroot is this machine. A sysroot is one of make-sysroot.sh, with its list of packages.
+set -euo pipefail
+
+version= sysroot= objdump=objdump output= programs=()
+while [[ $# -gt 0 ]]; do
+  case $1 in
+    --version) version=$2 && shift ;;
+    --sysroot) sysroot=$2 && shift ;;
+    --objdump) objdump=${2:-objdump} && shift ;;
+    --output) output=$2 && shift ;;
+    *) programs+=("$1") ;;
+  esac
+  shift
+done
+[[ -n $output && ${#programs[@]} -gt 0 ]] || {
+  echo "usage: bill-of-materials.sh --version V --sysroot FOLDER --objdump PROGRAM --output FILE PROGRAM…" >&2
+  exit 1
+}
+
+needed_by() { "$objdump" -p "$1" 2>/dev/null | sed -n 's/^ *NEEDED *//p'; }
+
+# Where the loader would find a library.
+path_of() {
+  local folder
+  for folder in "$sysroot"/lib/*-linux-gnu* "$sysroot"/usr/lib/*-linux-gnu* "$sysroot"/lib "$sysroot"/usr/lib; do
+    if [[ -e $folder/$1 ]]; then
+      echo "$folder/$1"
+      return
+    fi
+  done
+}
+
+# package version source of a file or a package
+package_of_file() {
+  local file=${1#"$sysroot"} owner
+  for candidate in "$file" "/usr$file" "${file#/usr}"; do
+    owner=$(dpkg-query ${sysroot:+--admindir="$sysroot/var/lib/dpkg"} -S "$candidate" 2>/dev/null | head -n 1) || continue
+    [[ -z $owner ]] || { echo "${owner%%: *}" && return; }
+  done
+}
+describe_package() {
+  dpkg-query ${sysroot:+--admindir="$sysroot/var/lib/dpkg"} -W -f='${Package} ${Version} ${source:Package}\n' "$1" 2>/dev/null |
+    head -n 1
+}
+
+declare -A seen=() packages=()
+queue=()
+for program in "${programs[@]}"; do
+  mapfile -t -O "${#queue[@]}" queue < <(needed_by "$program")
+done
+while [[ ${#queue[@]} -gt 0 ]]; do
+  library=${queue[0]}
+  queue=("${queue[@]:1}")
+  [[ -z ${seen[$library]:-} ]] || continue
+  seen[$library]=yes
+  path=$(path_of "$library")
+  [[ -n $path ]] || continue
+  package=$(package_of_file "$path")
+  [[ -z $package ]] || packages[$package]+="$library "
+  mapfile -t -O "${#queue[@]}" queue < <(needed_by "$path")
+done
+for header_only in libcli11-dev libspdlog-dev; do packages[$header_only]='(headers) '; done
+
+mkdir -p "$(dirname "$output")"
+{
+  printf 'SPDXVersion: SPDX-2.3\nDataLicense: CC0-1.0\nSPDXID: SPDXRef-DOCUMENT\n'
+  printf 'DocumentName: stereod-%s\nDocumentNamespace: urn:stereod:%s\n' "$version" "$version"
+  printf 'Creator: Tool: bill-of-materials.sh\nCreated: %s\n' \
+    "$(date -u -d "@${SOURCE_DATE_EPOCH:-0}" +%Y-%m-%dT%H:%M:%SZ)"
+  printf '\nPackageName: stereod\nSPDXID: SPDXRef-stereod\nPackageVersion: %s\n' "$version"
+  printf 'PackageDownloadLocation: NOASSERTION\nPackageLicenseDeclared: BSD-3-Clause\n'
+  printf '%s\n' "${!packages[@]}" | LC_ALL=C sort | while read -r name; do
+    read -r package package_version source < <(describe_package "$name") || continue
+    id=SPDXRef-${package//[^A-Za-z0-9.-]/-}
+    printf '\nPackageName: %s\nSPDXID: %s\nPackageVersion: %s\n' "$package" "$id" "$package_version"
+    printf 'PackageDownloadLocation: NOASSERTION\nPackageSourceInfo: Debian source package %s\n' "$source"
+    printf 'PackageComment: <text>%s</text>\n' "${packages[$name]% }"
+    printf 'Relationship: SPDXRef-stereod DEPENDS_ON %s\n' "$id"
+  done
+} >"$output"
