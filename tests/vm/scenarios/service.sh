@@ -50,7 +50,7 @@ now_ms() { echo $(($(date +%s%N) / 1000000)); }
 
 # The scenarios after this one find the machine's own route again.
 leave() {
-  systemctl stop stereod stereod@front stereod-multicast
+  systemctl stop stereod stereod@front stereod-multicast || true
   ip route replace 224.0.0.0/4 dev lo
   echo "=== the journal"
   journalctl -u stereod -u stereod@front -u stereod-multicast -o short-monotonic
