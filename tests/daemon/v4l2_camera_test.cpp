@@ -4,7 +4,9 @@
 #include <linux/videodev2.h>
 
 #include <algorithm>
+#include <cerrno>
 
+#include "daemon/capture/v4l2/camera_list.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/camera_bench.h"
 
@@ -321,6 +323,29 @@ TEST_F(V4l2CameraTest, AutomaticNamesNeedTwoCameras) {
   EXPECT_THAT(bench_.left->report().reason, HasSubstr("only /dev/video0 is plugged in"));
   bench_.video.plug(*bench_.right_camera, true);
   EXPECT_GT(bench_.run(1000).left, 10);
+}
+
+TEST_F(V4l2CameraTest, TheListNamesWhatTheConfigurationNeeds) {
+  bench_.left_camera->controls = {{V4L2_CID_GAIN, "Gain", 0, 100, 10, 20}};
+  bench_.right_camera->capture = false;
+  const std::string list = list_cameras(bench_.video);
+  for (const char* part :
+       {"Fake Camera", "/dev/v4l/by-path/port-1", "/dev/v4l/by-id/usb-LEFT-video-index0", "serial:LEFT",
+        "/dev/video0 (may change)", "usb-0000:00:14.0-1", "64×48 at 30", "20  (0 to 100, by itself 10)"}) {
+    EXPECT_THAT(list, HasSubstr(part));
+  }
+  EXPECT_THAT(list, testing::Not(HasSubstr("RIGHT"))) << "a metadata node is no camera";
+  bench_.left_camera->faults[kFakeOpen] = {EACCES, 1};
+  EXPECT_THAT(list_cameras(bench_.video), HasSubstr("/dev/video0 cannot be opened: Permission denied"));
+}
+
+TEST_F(V4l2CameraTest, WhatAPersonMustMendIsSaid) {
+  bench_.left_camera->faults[kFakeOpen] = {EACCES, 1'000'000};
+  bench_.right_camera->faults[VIDIOC_REQBUFS] = {ENOMEM, 1'000'000};
+  bench_.make();
+  bench_.run(1000);
+  EXPECT_THAT(bench_.left->report().reason, HasSubstr("not permitted; add this user to the group"));
+  EXPECT_THAT(bench_.right->report().reason, HasSubstr("no memory for buffers"));
 }
 
 TEST_F(V4l2CameraTest, StopEndsEverything) {

@@ -228,6 +228,18 @@ TEST_F(Controls, DifferencesAreReported) {
   EXPECT_EQ(bench_.left->report().state, "streaming") << "a control is no reason not to stream";
 }
 
+TEST_F(Controls, ErrorsAreReported) {
+  bench_.config.v4l2.controls = {{"brightness", 99}};
+  bench_.left_camera->faults[VIDIOC_S_CTRL] = {EIO, 1, 1};  // after the lengthening of exposure
+  bench_.right_camera->faults[VIDIOC_G_CTRL] = {EIO, 1};
+  bench_.make();
+  bench_.run(500);
+  EXPECT_EQ(bench_.left->report().note,
+            "brightness could not be set to 99 (Input/output error), allowed are 0 to 255");
+  EXPECT_EQ(bench_.right->report().note,
+            "brightness was set to 99 and cannot be read back (Input/output error)");
+}
+
 TEST_F(Controls, NamesOfOtherKernelsAreUnderstood) {
   bench_.config.v4l2.controls = {{"exposure_absolute", 99}, {"exposure_auto_priority", 1}};
   bench_.make();

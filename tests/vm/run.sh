@@ -110,18 +110,31 @@ fi
 [[ $prepared -eq 0 ]] || die "the image could not be made."
 [[ -n $built ]] || build || die "the programs could not be built."
 
-fill_share
-boot "$allowed"
-trap 'kill "$machine" 2>/dev/null || true' EXIT
-failed=()
-for name in "${scenarios[@]}"; do
-  judge "$name" || failed+=("$name")
-done
-wait "$machine" || true
-trap - EXIT
-rm -rf "${logs:?}/bin"
+# Runs $scenarios in a freshly booted machine; leaves in $failed those that did not pass.
+run_all() {
+  local name
+  fill_share
+  boot "$allowed"
+  trap 'kill "$machine" 2>/dev/null || true' EXIT
+  failed=()
+  for name in "${scenarios[@]}"; do
+    judge "$name" || failed+=("$name")
+  done
+  wait "$machine" || true
+  trap - EXIT
+  rm -rf "${logs:?}/bin"
+}
+
+asked=("${scenarios[@]}")
+run_all
+# No program may crash a kernel, so that is no verdict on ours: the unplugged camera's last close does it now and then.
+if [[ ${#failed[@]} -gt 0 ]] && grep -q 'BUG: kernel' "$logs/serial.log"; then
+  echo "vm/run: the machine's kernel has crashed; once more in a fresh one: ${failed[*]}"
+  scenarios=("${failed[@]}")
+  run_all
+fi
 if [[ ${#failed[@]} -gt 0 ]]; then
   echo "vm/run: FAILED: ${failed[*]}."
   exit 1
 fi
-echo "vm/run: passed: ${scenarios[*]}."
+echo "vm/run: passed: ${asked[*]}."
