@@ -159,6 +159,43 @@ TEST_F(StereoMatch, PaintsAPicture) {
   EXPECT_GT(view.width(), kSize.width) << "the scale bar";
 }
 
+// Half a row up: bilinear is the mean of two rows, nearest one of them; zoomed out, there is a margin.
+TEST_F(StereoMatch, RectifiesAsItIsToldTo) {
+  Calibration calibration;
+  calibration.image = kSize;
+  calibration.left = calibration.right = pinhole(kSize);
+  calibration.right.camera.cy += 0.5;
+  calibration.baseline_m = 0.07;
+  write_calibration(directory_ / "rig.yaml", calibration);
+  const auto rectified = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"--calibration", file("rig.yaml"), "--rectified", file("l.png"),
+                                       file("r.png")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_good(match_pair(arguments));
+    return read_grey(directory_ / "r.png");
+  };
+  std::ofstream(directory_ / "stereod.yaml")
+      << "cameras: {source: synthetic}\nrectify: {interpolation: bilinear}\n";
+  const GreyImage source = read_grey(directory_ / "right.png");
+  const GreyImage nearest = rectified({});
+  const GreyImage bilinear = rectified({"--interpolation", "bilinear"});
+  const GreyImage configured = rectified({"--config", file("stereod.yaml")});
+  const GreyImage zoomed = rectified({"--zoom", "1"});
+  for (int y = 0; y + 2 < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const int above = source.at(x, y), below = source.at(x, y + 1);
+      ASSERT_TRUE(nearest.at(x, y) == above || nearest.at(x, y) == below);
+      ASSERT_EQ(bilinear.at(x, y), (above + below + 1) / 2);
+      ASSERT_EQ(configured.at(x, y), bilinear.at(x, y));
+    }
+  }
+  EXPECT_EQ(std::count(zoomed.row(0), zoomed.row(0) + kSize.width, 0), kSize.width);
+  expect_refused(match_pair({"--repeat", "1", "--interpolation", "bilinear"}), {"--calibration"});
+  expect_refused(match_pair({"--repeat", "1", "--calibration", file("rig.yaml"), "--zoom", "2"}), {"--zoom"});
+  expect_refused(match_pair({"--repeat", "1", "--calibration", file("rig.yaml"), "--interpolation", "cubic"}),
+                 {"nearest, bilinear"});
+}
+
 TEST_F(StereoMatch, RectifiesFirst) {
   Calibration calibration;
   calibration.image = kSize;
