@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -159,12 +160,13 @@ TEST_F(StereoMatch, PaintsAPicture) {
   EXPECT_GT(view.width(), kSize.width) << "the scale bar";
 }
 
-// Half a row up: bilinear is the mean of two rows, nearest one of them; zoomed out, there is a margin.
+// Ten and a half rows up: bilinear is the mean of two rows, nearest one of them; zoomed out, there is a
+// margin.
 TEST_F(StereoMatch, RectifiesAsItIsToldTo) {
   Calibration calibration;
   calibration.image = kSize;
   calibration.left = calibration.right = pinhole(kSize);
-  calibration.right.camera.cy += 0.5;
+  calibration.right.camera.cy += 10.5;
   calibration.baseline_m = 0.07;
   write_calibration(directory_ / "rig.yaml", calibration);
   const auto rectified = [&](std::vector<std::string> more) {
@@ -181,15 +183,16 @@ TEST_F(StereoMatch, RectifiesAsItIsToldTo) {
   const GreyImage bilinear = rectified({"--interpolation", "bilinear"});
   const GreyImage configured = rectified({"--config", file("stereod.yaml")});
   const GreyImage zoomed = rectified({"--zoom", "1"});
-  for (int y = 0; y + 2 < kSize.height; ++y) {
+  for (int y = 0; y + 12 < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
-      const int above = source.at(x, y), below = source.at(x, y + 1);
+      const int above = source.at(x, y + 10), below = source.at(x, y + 11);
       ASSERT_TRUE(nearest.at(x, y) == above || nearest.at(x, y) == below);
       ASSERT_EQ(bilinear.at(x, y), (above + below + 1) / 2);
       ASSERT_EQ(configured.at(x, y), bilinear.at(x, y));
     }
   }
-  EXPECT_EQ(std::count(zoomed.row(0), zoomed.row(0) + kSize.width, 0), kSize.width);
+  const std::uint8_t* last = zoomed.row(kSize.height - 1);
+  EXPECT_EQ(std::count(last, last + kSize.width, 0), kSize.width);
   expect_refused(match_pair({"--repeat", "1", "--interpolation", "bilinear"}), {"--calibration"});
   expect_refused(match_pair({"--repeat", "1", "--calibration", file("rig.yaml"), "--zoom", "2"}), {"--zoom"});
   expect_refused(match_pair({"--repeat", "1", "--calibration", file("rig.yaml"), "--interpolation", "cubic"}),
