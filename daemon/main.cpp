@@ -92,6 +92,11 @@ Rig open_checked_rig(const Config& config, const std::filesystem::path& file) {
     throw FileError(place_of(file, "matcher.isa") + ": " + error.what());
   }
   Rig rig = open_rig(config);
+  if (config.scan.enabled && !rig.calibration) {
+    throw FileError(
+        place_of(file, "scan.enabled") +
+        ": found true, but without a calibration no distance is known; give one, or allowed is false");
+  }
   try {
     check_pipeline(config, rig.left->frame_size());
   } catch (const std::invalid_argument& error) {

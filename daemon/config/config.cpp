@@ -5,6 +5,7 @@
 #include <sstream>
 #include <thread>
 
+#include "daemon/config/scan_section.h"
 #include "daemon/config/v4l2_section.h"
 #include "daemon/config/yaml_section.h"
 
@@ -111,6 +112,14 @@ void read_lcm(YamlSection section, LcmConfig& lcm) {
   lcm.spread = section.number("spread", lcm.spread, 0, 0.9);
   lcm.raw_images = section.flag("raw_images", lcm.raw_images);
   lcm.raw_images_per_second = section.number("raw_images_per_second", lcm.raw_images_per_second, 0.1, 60);
+  LeftImageConfig& left = lcm.left_image;
+  const std::string form = section.text("left_image", "off");
+  if (form != "off" && form != "jpeg" && form != "grey") {
+    section.fail("left_image", "found '" + form + "', allowed are off, jpeg and grey");
+  }
+  left.enabled = form != "off";
+  left.jpeg = form == "jpeg";
+  left.per_second = section.number("left_images_per_second", left.per_second, 0.1, 240);
   section.finish();
 }
 
@@ -177,6 +186,7 @@ Config read_config(const std::filesystem::path& file) {
   read_matcher(root.section("matcher"), config.matcher);
   config.workers = root.integer("workers", config.workers, 0, 64);
   read_lcm(root.section("lcm"), config.lcm);
+  read_scan_section(root.section("scan"), config.scan);
   config.log_level = read_log_level(root.section("log"), config.log_level);
   root.finish();
   return config;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/match/matcher_options.h"
+#include "core/obstacle_scan.h"
 
 namespace stereod {
 
@@ -63,6 +64,13 @@ struct CamerasConfig {
   std::int64_t pairing_tolerance_ns() const;
 };
 
+/// The rectified left image on the wire.
+struct LeftImageConfig {
+  bool enabled = false;
+  bool jpeg = true;  ///< false: every grey value, in several datagrams
+  double per_second = 15;
+};
+
 struct LcmConfig {
   std::string url;                ///< empty: LCM_DEFAULT_URL, or this machine only
   std::string prefix = "STEREO";  ///< of every channel
@@ -70,6 +78,14 @@ struct LcmConfig {
   double spread = 0.3;      ///< share of the frame time over which a frame's rows are spread out
   bool raw_images = false;  ///< publish what the cameras see
   double raw_images_per_second = 2;
+  LeftImageConfig left_image;
+};
+
+struct ScanConfig {
+  bool enabled = false;
+  bool fit_ground = true;  ///< false: `ground` is where the floor is
+  GroundPlane ground;
+  ScanOptions options;
 };
 
 struct Config {
@@ -78,6 +94,7 @@ struct Config {
   MatcherOptions matcher = *matcher_preset("robust");
   int workers = 0;  ///< 0: one for each core
   LcmConfig lcm;
+  ScanConfig scan;
   std::string log_level = "info";
 
   /// How many workers that is on this machine.

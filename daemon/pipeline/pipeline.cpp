@@ -33,6 +33,12 @@ std::string describe(const Config& config) {
   return text + ", " + std::to_string(workers) + (workers == 1 ? " worker" : " workers");
 }
 
+ScanPublisher* emplace_scan(std::optional<ScanPublisher>& scan, MessageBus& bus, const Config& config,
+                            const Rig& rig) {
+  if (!config.scan.enabled || !rig.calibration) return nullptr;
+  return &scan.emplace(bus, config.lcm.prefix, config.scan, scan_camera(*rig.calibration, config.matcher));
+}
+
 SourceLayout layout_of(const LumaView& luma) { return {luma.size, luma.row_stride, luma.pixel_stride}; }
 
 }  // namespace
@@ -47,13 +53,16 @@ Pipeline::Pipeline(const Config& config, Rig rig, MessageBus& bus)
       rig_(std::move(rig)),
       size_(rig_.left->frame_size()),
       matcher_description_(describe(config)),
-      publisher_(bus, wire_format(config), size_),
+      publisher_(bus, wire_format(config), size_, emplace_scan(scan_publisher_, bus, config, rig_)),
       desk_(config.cameras.pairing_tolerance_ns(), config.cameras.max_skew_ms == 0),
       pool_(config.worker_count()) {
   for (int worker = 0; worker < pool_.workers(); ++worker) workers_.emplace_back(config.matcher, size_);
   if (config.matcher.speckle_size > 0) speckle_filter_.emplace(size_);
   if (config.lcm.raw_images) {
     raw_publisher_.emplace(bus, config.lcm.prefix, config.lcm.raw_images_per_second, size_);
+  }
+  if (config.lcm.left_image.enabled) {
+    left_publisher_.emplace(bus, config.lcm.prefix, config.lcm.left_image, size_);
   }
   left_thread_.emplace(Side::kLeft, *rig_.left, desk_);
   right_thread_.emplace(Side::kRight, *rig_.right, desk_);
@@ -69,6 +78,7 @@ void Pipeline::stop() noexcept {
   desk_.close();
   publisher_.stop();
   if (raw_publisher_) raw_publisher_->stop();
+  if (left_publisher_) left_publisher_->stop();
   if (matching_thread_.joinable()) matching_thread_.join();
   desk_.clear();  // the leases end before their sources do
 }
@@ -80,6 +90,7 @@ PipelineFigures Pipeline::take_figures() {
   PipelineFigures figures{camera(*left_thread_), camera(*right_thread_), desk_.counts(),
                           publisher_.take_figures()};
   if (raw_publisher_) figures.published.messages_refused += raw_publisher_->refused();
+  if (left_publisher_) figures.published.messages_refused += left_publisher_->refused();
   return figures;
 }
 
@@ -126,8 +137,9 @@ void Pipeline::prepare_maps(const LeasedPair& pair) {
 }
 
 void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {
-  const BandWorker::Job job{pair,         *left_map_, *right_map_, *left_mask_,
-                            *right_mask_, output,     publisher_,  !speckle_filter_};
+  GreyImage* const left_image = left_publisher_ ? left_publisher_->take_if_due() : nullptr;
+  const BandWorker::Job job{pair,   *left_map_, *right_map_, *left_mask_,     *right_mask_,
+                            output, publisher_, left_image,  !speckle_filter_};
   const int blocks = publisher_.blocks();
   const int bands = std::min(pool_.workers(), blocks);
   pool_.run(bands, [&](int band, int /*worker*/) {
@@ -140,6 +152,7 @@ void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {
   }
   output.facts.rectify_ns = rectify_ns / bands;
   output.facts.match_ns = match_ns / bands;
+  if (left_image != nullptr) left_publisher_->send(output.facts.utime);
 }
 
 void Pipeline::filter_frame(OutputFrame& output) noexcept {

@@ -15,6 +15,7 @@
 #include "daemon/pipeline/band_worker.h"
 #include "daemon/pipeline/capture_thread.h"
 #include "daemon/pipeline/frame_publisher.h"
+#include "daemon/pipeline/left_publisher.h"
 #include "daemon/pipeline/pairing_desk.h"
 #include "daemon/pipeline/raw_publisher.h"
 
@@ -73,12 +74,14 @@ class Pipeline {
   Rig rig_;
   const Size size_;
   std::string matcher_description_;
+  std::optional<ScanPublisher> scan_publisher_;
   FramePublisher publisher_;
   PairingDesk desk_;
   WorkerPool pool_;
   std::vector<BandWorker> workers_;
   std::optional<SpeckleFilter> speckle_filter_;
   std::optional<RawPublisher> raw_publisher_;
+  std::optional<LeftPublisher> left_publisher_;
   std::optional<RectifyMap> left_map_, right_map_;
   std::optional<ValidityMask> left_mask_, right_mask_;  // of the maps
   std::int64_t next_frame_ = 0;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <numbers>
 #include <regex>
 #include <string>
 
@@ -70,6 +71,18 @@ matcher:
   cache: small
 workers: 3
 lcm: {url: "memq://", prefix: FRONT, rows_per_message: 8, spread: 0.5}
+scan:
+  enabled: true
+  ground: given
+  camera_height_m: 0.31
+  camera_pitch_deg: 18
+  lowest_m: 0.03
+  highest_m: 0.7
+  max_range_m: 5
+  rays: 33
+  min_support: 44
+  stop_distance_m: 0.6
+  stop_width_m: 0.5
 log: {level: debug}
 )");
   EXPECT_EQ(config.cameras.source, SourceKind::kReplay);
@@ -100,6 +113,17 @@ log: {level: debug}
   EXPECT_EQ(config.lcm.prefix, "FRONT");
   EXPECT_EQ(config.lcm.rows_per_message, 8);
   EXPECT_EQ(config.lcm.spread, 0.5);
+  EXPECT_TRUE(config.scan.enabled);
+  EXPECT_FALSE(config.scan.fit_ground);
+  EXPECT_EQ(config.scan.ground.height_m, 0.31);
+  EXPECT_DOUBLE_EQ(config.scan.ground.pitch_rad, std::numbers::pi / 10);
+  EXPECT_EQ(config.scan.options.lowest_m, 0.03);
+  EXPECT_EQ(config.scan.options.highest_m, 0.7);
+  EXPECT_EQ(config.scan.options.max_range_m, 5);
+  EXPECT_EQ(config.scan.options.rays, 33);
+  EXPECT_EQ(config.scan.options.min_support, 44);
+  EXPECT_EQ(config.scan.options.stop_distance_m, 0.6);
+  EXPECT_EQ(config.scan.options.stop_width_m, 0.5);
   EXPECT_EQ(config.log_level, "debug");
 }
 
@@ -158,6 +182,11 @@ INSTANTIATE_TEST_SUITE_P(
     Config, BadConfigFile,
     testing::Values(
         BadConfig{"matcher: {}\n", "stereod.yaml: cameras: is missing"},
+        BadConfig{
+            "cameras: {source: synthetic}\nscan: {lowest_m: 0.5, highest_m: 0.5}\n",
+            "stereod.yaml:2: scan.highest_m: is not above lowest_m, so that nothing would be an obstacle"},
+        BadConfig{"cameras: {source: synthetic}\nscan: {ground: guess}\n",
+                  "stereod.yaml:2: scan.ground: found 'guess', allowed are fit and given"},
         BadConfig{"cameras:\nlcm: {}\n", "stereod.yaml:1: cameras.source: is missing"},
         BadConfig{"cameras:\n  fps: 3\n", "stereod.yaml:2: cameras.source: is missing"},
         BadConfig{"cameras:\n  source: webcam\n",
