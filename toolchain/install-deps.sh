@@ -12,7 +12,9 @@ build_packages=(
   libv4l-dev                   # formats of cameras that are not read directly
   iproute2 util-linux          # ip and unshare: the demo's and the tests' own network
 )
-test_packages=(libgtest-dev libgmock-dev libopencv-dev poppler-utils libcpp-httplib-dev)
+test_packages=(libgtest-dev libgmock-dev libopencv-dev poppler-utils libcpp-httplib-dev
+  liblcm-java libjchart2d-java default-jre default-jdk-headless xvfb xdotool  # stereod-spy
+)
 # The Aloe photographs. Some mirrors do without documentation, and so can we.
 optional_packages=(opencv-doc)
 emulation_packages=(
@@ -28,7 +30,10 @@ die() {
 packages=("${build_packages[@]}")
 case "${1:-}" in
   '') ;;
-  --tests) packages+=("${test_packages[@]}") ;;
+  --tests)
+    packages+=("${test_packages[@]}")
+    optional_packages+=(chromium)  # the page of stereo-view in a browser
+    ;;
   --emulation)
     packages+=("${test_packages[@]}")
     optional_packages+=("${emulation_packages[@]}")

@@ -16,6 +16,7 @@ enum class SourceKind {
   kV4l2,       ///< two cameras
   kReplay,     ///< recorded pictures
   kSynthetic,  ///< a rendered scene with known depth
+  kLog,        ///< raw images in an LCM log
 };
 
 /// How the cameras' exposure is kept.
@@ -56,6 +57,10 @@ struct CamerasConfig {
   std::filesystem::path replay_left, replay_right;  ///< one pair of pictures, or
   std::filesystem::path replay_folder;              ///< a folder of numbered pairs
   bool replay_loop = true;
+  // source: log
+  std::filesystem::path log_file;
+  std::string log_prefix = "STEREO";  ///< of the channels in the log
+  bool log_loop = false;
   // source: synthetic
   int width = 640, height = 480;
   double skew_ms = 0;  ///< how much later the right camera exposes

@@ -107,7 +107,8 @@ void Pipeline::matching_thread() noexcept {
 void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
   FrameFacts& facts = output.facts;
   facts.frame = next_frame_++;
-  facts.utime = wall_us_of(pair.left_ns);
+  const std::int64_t own_utime = pair.left.frame().utime;
+  facts.utime = own_utime != 0 ? own_utime : wall_us_of(pair.left_ns);
   facts.left_ns = pair.left_ns;
   facts.right_ns = pair.right_ns;
   facts.left_sequence = pair.left.frame().sequence;
@@ -119,7 +120,7 @@ void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
   if (speckle_filter_) filter_frame(output);
   facts.matched_ns = monotonic_ns();
   publisher_.frame_final(output);
-  if (raw_publisher_) raw_publisher_->offer(pair);  // after what is urgent
+  if (raw_publisher_) raw_publisher_->offer(pair, facts.utime);  // after what is urgent
 }
 
 // The tables are made when the first frame shows how its pixels lie in memory, and again if that ever

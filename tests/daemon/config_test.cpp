@@ -189,8 +189,9 @@ INSTANTIATE_TEST_SUITE_P(
                   "stereod.yaml:2: scan.ground: found 'guess', allowed are fit and given"},
         BadConfig{"cameras:\nlcm: {}\n", "stereod.yaml:1: cameras.source: is missing"},
         BadConfig{"cameras:\n  fps: 3\n", "stereod.yaml:2: cameras.source: is missing"},
-        BadConfig{"cameras:\n  source: webcam\n",
-                  "stereod.yaml:2: cameras.source: found 'webcam', allowed are v4l2, replay and synthetic"},
+        BadConfig{
+            "cameras:\n  source: webcam\n",
+            "stereod.yaml:2: cameras.source: found 'webcam', allowed are v4l2, replay, synthetic and log"},
         BadConfig{"cameras:\n  source: synthetic\n  speed: 3\n",
                   "stereod.yaml:3: cameras.speed: is not a known key; the nearest known key is 'fps'"},
         BadConfig{"cameras:\n  source: synthetic\nmatcher:\n  dispariites: 64\n",
