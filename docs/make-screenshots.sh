@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes the screenshots in docs/pictures anew, from build/release: stereo-view in headless Chromium, stereod-spy and
-# stereo-tap on a virtual screen. Wants the Debian packages chromium, xvfb, xdotool, xterm, imagemagick and those of
-# stereod-spy, and some minutes in which the machine does little else.
+# Makes the screenshots in docs/pictures anew, from build/release: stereo-view in headless Chromium, stereod-spy on a
+# virtual screen, and what stereo-tap prints. Wants the Debian packages chromium, xvfb, xdotool, imagemagick,
+# fonts-dejavu-core and those of stereod-spy, and some minutes in which the machine does little else.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 if [[ ${1:-} != --inside ]]; then exec toolchain/own-network.sh bash docs/make-screenshots.sh --inside; fi
@@ -29,11 +29,9 @@ keep "$work/stereod-spy.png" stereod-spy.png
 export LCM_DEFAULT_URL='udpm://239.255.76.67:17670?ttl=0'
 $bin/stereod --config etc/demo.yaml 2>/dev/null &
 children+=($!)
-Xvfb -displayfd 3 -screen 0 720x620x24 -nolisten tcp 3>"$work/display" 2>/dev/null &
-children+=($!)
-sleep 5
-DISPLAY=:$(cat "$work/display") xterm -fa 'DejaVu Sans Mono' -fs 10 -geometry 84x38+0+0 -e $bin/stereo-tap status &
-children+=($!)
-sleep 8
-DISPLAY=:$(cat "$work/display") import -window root "$work/stereo-tap.png"
+sleep 10
+# The terminal's text, drawn: a terminal emulator cannot be had in a namespace of its own.
+status=$($bin/stereo-tap status --once | sed 's/\\/\\\\/g; s/%/%%/g')  # % is convert's own
+convert -size 760x640 xc:'#14171c' -fill '#e8ebef' -font DejaVu-Sans-Mono -pointsize 15 -annotate +14+26 "$status" \
+  "$work/stereo-tap.png"
 keep "$work/stereo-tap.png" stereo-tap.png

@@ -69,6 +69,7 @@ TEST_F(BrowserTest, ShowsWhatIsOnTheWire) {
   options.url = kUrl;
   options.prefix = "WEB";
   options.newest_frame_only = false;
+  options.queue_messages = 100'000;  // what comes while the browser takes its time
   StereoClient client(options);
   client.on_frame([&](StereoFrame&& frame) { wire.emplace(frame.frame, std::move(frame)); });
 
@@ -89,8 +90,16 @@ TEST_F(BrowserTest, ShowsWhatIsOnTheWire) {
   ASSERT_TRUE(shows_frames(20));
 
   // A frame of the page, all of it, beside the same frame from the wire.
-  browser.evaluate("view.paused = true");
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const std::string whole_and_streaming =
+      "view.moment.frame && view.moment.frame.complete && document.getElementById('state').textContent";
+  ASSERT_TRUE(wait_until([&] {
+    client.handle(1);
+    browser.evaluate("view.paused = true");
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    if (browser.evaluate(whole_and_streaming) == "streaming") return true;
+    browser.evaluate("view.paused = false");
+    return false;
+  }));
   const YAML::Node moment = YAML::Load(browser.evaluate("JSON.stringify(view.moment)"));
   const YAML::Node frame = moment["frame"];
   const auto number = frame["frame"].as<std::int64_t>();
