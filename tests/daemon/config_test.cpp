@@ -50,6 +50,7 @@ cameras:
   fps: 12.5
   max_skew_ms: 7
   replay: {left: l.png, right: /abs/r.png, loop: false}
+  log: {file: field.lcm, prefix: REAR, loop: true}
   synthetic: {width: 320, height: 240, skew_ms: 3}
 calibration: calibration.yaml
 matcher:
@@ -70,7 +71,7 @@ matcher:
   isa: scalar
   cache: small
 workers: 3
-lcm: {url: "memq://", prefix: FRONT, rows_per_message: 8, spread: 0.5}
+lcm: {url: "memq://", prefix: FRONT, rows_per_message: 8, spread: 0.5, left_image: grey, left_images_per_second: 3}
 scan:
   enabled: true
   ground: given
@@ -113,6 +114,12 @@ log: {level: debug}
   EXPECT_EQ(config.lcm.prefix, "FRONT");
   EXPECT_EQ(config.lcm.rows_per_message, 8);
   EXPECT_EQ(config.lcm.spread, 0.5);
+  EXPECT_EQ(config.cameras.log_file, directory_ / "field.lcm");
+  EXPECT_EQ(config.cameras.log_prefix, "REAR");
+  EXPECT_TRUE(config.cameras.log_loop);
+  EXPECT_TRUE(config.lcm.left_image.enabled);
+  EXPECT_FALSE(config.lcm.left_image.jpeg);
+  EXPECT_EQ(config.lcm.left_image.per_second, 3);
   EXPECT_TRUE(config.scan.enabled);
   EXPECT_FALSE(config.scan.fit_ground);
   EXPECT_EQ(config.scan.ground.height_m, 0.31);
@@ -185,6 +192,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadConfig{
             "cameras: {source: synthetic}\nscan: {lowest_m: 0.5, highest_m: 0.5}\n",
             "stereod.yaml:2: scan.highest_m: is not above lowest_m, so that nothing would be an obstacle"},
+        BadConfig{"cameras: {source: log}\n",
+                  "stereod.yaml: cameras.log.file: found nothing, needed is the name of an LCM log"},
+        BadConfig{"cameras: {source: synthetic}\nlcm: {left_image: png}\n",
+                  "stereod.yaml:2: lcm.left_image: found 'png', allowed are off, jpeg and grey"},
         BadConfig{"cameras: {source: synthetic}\nscan: {ground: guess}\n",
                   "stereod.yaml:2: scan.ground: found 'guess', allowed are fit and given"},
         BadConfig{"cameras:\nlcm: {}\n", "stereod.yaml:1: cameras.source: is missing"},
