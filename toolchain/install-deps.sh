@@ -8,12 +8,14 @@ build_packages=(
   g++ cmake ninja-build pkg-config
   liblcm-dev liblcm-bin        # the messages on the wire, and the generator of their classes
   libyaml-cpp-dev libspdlog-dev libcli11-dev
-  libturbojpeg0-dev libpng-dev
+  libturbojpeg0-dev libpng-dev zlib1g-dev
   libsystemd-dev               # word to systemd of how the daemon is
   libv4l-dev                   # formats of cameras that are not read directly
   iproute2 util-linux          # ip and unshare: the demo's and the tests' own network
 )
-test_packages=(libgtest-dev libgmock-dev libopencv-dev poppler-utils libcpp-httplib-dev nftables chromium)
+test_packages=(libgtest-dev libgmock-dev libopencv-dev poppler-utils libcpp-httplib-dev nftables chromium
+  liblcm-java libjchart2d-java default-jre default-jdk-headless xvfb xdotool  # stereod-spy
+)
 # The Aloe photographs. Some mirrors do without documentation, and so can we.
 optional_packages=(opencv-doc)
 emulation_packages=(
@@ -29,7 +31,10 @@ die() {
 packages=("${build_packages[@]}")
 case "${1:-}" in
   '') ;;
-  --tests) packages+=("${test_packages[@]}") ;;
+  --tests)
+    packages+=("${test_packages[@]}")
+    optional_packages+=(chromium)  # the page of stereo-view in a browser
+    ;;
   --emulation)
     packages+=("${test_packages[@]}")
     optional_packages+=("${emulation_packages[@]}")

@@ -26,6 +26,7 @@ struct Frame {
   LumaView luma;
   std::int64_t captured_ns = 0;  ///< CLOCK_MONOTONIC at the start of exposure
   std::uint32_t sequence = 0;    ///< the camera's own count; a gap is frames that were lost or dropped
+  std::int64_t utime = 0;  ///< µs since the Unix epoch, if the source knows better than captured_ns; else 0
 };
 
 /// Who takes a buffer back when the last user of a frame is done.

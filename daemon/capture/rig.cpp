@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/stereo_rectification.h"
+#include "daemon/capture/log_source.h"
 #include "daemon/capture/replay_source.h"
 #include "daemon/capture/synthetic_source.h"
 #include "daemon/config/calibration_file.h"
@@ -27,6 +28,19 @@ Rig open_replay_rig(const CamerasConfig& cameras) {
   rig.right = std::move(sources.right);
   rig.left_name = "replay of " + (folder ? cameras.replay_folder : cameras.replay_left).string();
   rig.right_name = "replay of " + (folder ? cameras.replay_folder : cameras.replay_right).string();
+  return rig;
+}
+
+Rig open_log_rig(const CamerasConfig& cameras) {
+  LogSources sources = open_log(cameras.log_file, {cameras.log_prefix, cameras.fps > 0, cameras.log_loop});
+  if (sources.unpaired > 0) {
+    spdlog::warn("{}: {} raw images have no partner in the log and are not replayed",
+                 cameras.log_file.string(), sources.unpaired);
+  }
+  Rig rig;
+  rig.left = std::move(sources.left);
+  rig.right = std::move(sources.right);
+  rig.left_name = rig.right_name = "log " + cameras.log_file.string();
   return rig;
 }
 
@@ -56,6 +70,8 @@ Rig open_uncalibrated(const CamerasConfig& cameras) {
       return open_replay_rig(cameras);
     case SourceKind::kSynthetic:
       return open_synthetic_rig(cameras);
+    case SourceKind::kLog:
+      return open_log_rig(cameras);
   }
   return {};
 }

@@ -62,12 +62,12 @@ float normal(std::uint64_t random) {
 
 }  // namespace
 
-SyntheticScene::SyntheticScene(Size size, int frames, double baseline_m)
+SyntheticScene::SyntheticScene(Size size, int frames, double baseline_m, bool boxes)
     : frames_(frames >= 1 ? frames
                           : throw std::invalid_argument("a scene has at least 1 frame, not " +
                                                         std::to_string(frames))),
       calibration_(make_calibration(size, baseline_m)),
-      world_(calibration_.left.projection.fx, baseline_m, frames),
+      world_(calibration_.left.projection.fx, baseline_m, frames, boxes),
       left_(make_view(calibration_.left, 0, 1.0F, 0.0F, 1)),
       right_(make_view(calibration_.right, baseline_m, 0.86F, 8.0F, 2)) {}
 

@@ -16,8 +16,10 @@ namespace stereod {
 class SyntheticScene {
  public:
   /// Frames `frames` ≥ 1 make a loop without seam. `size` from 64×48 up; focal lengths and so disparities
-  /// grow with it: at 640×480 these are 6…55 px. `baseline_m` > 0. Throws std::invalid_argument.
-  explicit SyntheticScene(Size size = {640, 480}, int frames = 24, double baseline_m = 0.06);
+  /// grow with it: at 640×480 these are 6…55 px. `baseline_m` > 0. `boxes`: false leaves floor and wall
+  /// alone. Throws std::invalid_argument.
+  explicit SyntheticScene(Size size = {640, 480}, int frames = 24, double baseline_m = 0.06,
+                          bool boxes = true);
 
   Size size() const { return calibration_.image; }
   int frames() const { return frames_; }

@@ -49,10 +49,11 @@ float value_noise(float u, float v, std::uint32_t salt) {
 
 }  // namespace
 
-SyntheticWorld::SyntheticWorld(double focal_px, double baseline_m, int frames)
+SyntheticWorld::SyntheticWorld(double focal_px, double baseline_m, int frames, bool boxes)
     : focal_px_(static_cast<float>(focal_px)),
       middle_x_(static_cast<float>(baseline_m / 2)),
       frames_(frames) {
+  if (!boxes) return;
   unsigned texture = 16;
   const auto next_texture = [&] { return texture += 16; };
   still_ = {

@@ -30,8 +30,9 @@ struct SceneHit {
 /// at it.
 class SyntheticWorld {
  public:
-  /// `focal_px`: focal length of the rectified cameras; the textures are made for it.
-  SyntheticWorld(double focal_px, double baseline_m, int frames);
+  /// `focal_px`: focal length of the rectified cameras; the textures are made for it. `boxes`: false leaves
+  /// the room empty.
+  SyntheticWorld(double focal_px, double baseline_m, int frames, bool boxes = true);
 
   /// What the ray meets of that which never moves. Always something: the wall closes the room.
   SceneHit still_hit(const SceneRay& ray) const;

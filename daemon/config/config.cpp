@@ -6,6 +6,7 @@
 #include <sstream>
 #include <thread>
 
+#include "daemon/config/scan_section.h"
 #include "daemon/config/v4l2_section.h"
 #include "daemon/config/yaml_section.h"
 
@@ -19,6 +20,7 @@ std::optional<SourceKind> parse_source_kind(std::string_view name) {
   if (name == "v4l2") return SourceKind::kV4l2;
   if (name == "replay") return SourceKind::kReplay;
   if (name == "synthetic") return SourceKind::kSynthetic;
+  if (name == "log") return SourceKind::kLog;
   return std::nullopt;
 }
 
@@ -40,6 +42,14 @@ void read_replay(YamlSection section, CamerasConfig& cameras) {
   }
 }
 
+void read_log(YamlSection section, CamerasConfig& cameras) {
+  cameras.log_file = section.file_name("file");
+  cameras.log_prefix = section.text("prefix", cameras.log_prefix);
+  cameras.log_loop = section.flag("loop", cameras.log_loop);
+  section.finish();
+  if (cameras.log_file.empty()) section.fail("file", "found nothing, needed is the name of an LCM log");
+}
+
 void read_synthetic(YamlSection section, CamerasConfig& cameras) {
   cameras.width = section.integer("width", cameras.width, 64, 1920);
   cameras.height = section.integer("height", cameras.height, 48, 1200);
@@ -49,15 +59,17 @@ void read_synthetic(YamlSection section, CamerasConfig& cameras) {
 
 void read_cameras(YamlSection section, CamerasConfig& cameras) {
   section.required_text("source");
-  cameras.source =
-      section.choice<SourceKind>("source", cameras.source, "v4l2, replay and synthetic", parse_source_kind);
+  cameras.source = section.choice<SourceKind>("source", cameras.source, "v4l2, replay, synthetic and log",
+                                              parse_source_kind);
   cameras.fps = section.number("fps", cameras.fps, 0, 240);
   cameras.max_skew_ms = section.number("max_skew_ms", cameras.max_skew_ms, 0, 1000);
   // A section for another source may stay in the file; it is checked all the same.
   read_v4l2_section(section, cameras);
   YamlSection replay = section.section("replay");
   YamlSection synthetic = section.section("synthetic");
+  YamlSection log = section.section("log");
   if (cameras.source == SourceKind::kReplay || section.has("replay")) read_replay(std::move(replay), cameras);
+  if (cameras.source == SourceKind::kLog || section.has("log")) read_log(std::move(log), cameras);
   read_synthetic(std::move(synthetic), cameras);
   section.finish();
 }
@@ -147,6 +159,14 @@ void read_lcm(YamlSection section, LcmConfig& lcm) {
   lcm.spread = section.number("spread", lcm.spread, 0, 0.9);
   lcm.raw_images = section.flag("raw_images", lcm.raw_images);
   lcm.raw_images_per_second = section.number("raw_images_per_second", lcm.raw_images_per_second, 0.1, 60);
+  LeftImageConfig& left = lcm.left_image;
+  const std::string form = section.text("left_image", "off");
+  if (form != "off" && form != "jpeg" && form != "grey") {
+    section.fail("left_image", "found '" + form + "', allowed are off, jpeg and grey");
+  }
+  left.enabled = form != "off";
+  left.jpeg = form == "jpeg";
+  left.per_second = section.number("left_images_per_second", left.per_second, 0.1, 240);
   section.finish();
 }
 
@@ -173,6 +193,8 @@ std::string_view name_of(SourceKind kind) {
       return "replay";
     case SourceKind::kSynthetic:
       return "synthetic";
+    case SourceKind::kLog:
+      return "log";
   }
   return "?";
 }
@@ -215,6 +237,7 @@ Config read_config(const std::filesystem::path& file) {
   config.workers = root.integer("workers", config.workers, 0, 64);
   read_scheduling(root.section("scheduling"), config.scheduling);
   read_lcm(root.section("lcm"), config.lcm);
+  read_scan_section(root.section("scan"), config.scan);
   config.log_level = read_log_level(root.section("log"), config.log_level);
   root.finish();
   return config;

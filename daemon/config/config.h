@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/match/matcher_options.h"
+#include "core/obstacle_scan.h"
 #include "core/rectify_map.h"
 
 namespace stereod {
@@ -18,6 +19,7 @@ enum class SourceKind {
   kV4l2,       ///< two cameras
   kReplay,     ///< recorded pictures
   kSynthetic,  ///< a rendered scene with known depth
+  kLog,        ///< raw images in an LCM log
 };
 
 /// How the cameras' exposure is kept.
@@ -59,6 +61,10 @@ struct CamerasConfig {
   std::filesystem::path replay_left, replay_right;  ///< one pair of pictures, or
   std::filesystem::path replay_folder;              ///< a folder of numbered pairs
   bool replay_loop = true;
+  // source: log
+  std::filesystem::path log_file;
+  std::string log_prefix = "STEREO";  ///< of the channels in the log
+  bool log_loop = false;
   // source: synthetic
   int width = 640, height = 480;
   double skew_ms = 0;  ///< how much later the right camera exposes
@@ -73,6 +79,13 @@ struct RectifyConfig {
   std::optional<double> zoom;  ///< see zoomed(); nothing: as the calibration has it
 };
 
+/// The rectified left image on the wire.
+struct LeftImageConfig {
+  bool enabled = false;
+  bool jpeg = true;  ///< false: every grey value, in several datagrams
+  double per_second = 15;
+};
+
 struct LcmConfig {
   std::string url;                ///< empty: LCM_DEFAULT_URL, or this machine only
   std::string prefix = "STEREO";  ///< of every channel
@@ -80,6 +93,14 @@ struct LcmConfig {
   double spread = 0.3;      ///< share of the frame time over which a frame's rows are spread out
   bool raw_images = false;  ///< publish what the cameras see
   double raw_images_per_second = 2;
+  LeftImageConfig left_image;
+};
+
+struct ScanConfig {
+  bool enabled = false;
+  bool fit_ground = true;  ///< false: `ground` is where the floor is
+  GroundPlane ground;
+  ScanOptions options;
 };
 
 /// How the kernel is to run the threads that match.
@@ -96,6 +117,7 @@ struct Config {
   int workers = 0;  ///< 0: one for each core
   SchedulingConfig scheduling;
   LcmConfig lcm;
+  ScanConfig scan;
   std::string log_level = "info";
 
   /// How many workers that is on this machine.

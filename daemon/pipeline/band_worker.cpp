@@ -19,7 +19,7 @@ void BandWorker::run(const Job& job, RowRange blocks) noexcept {
   for (int y = input.first; y < input.end; y += BandMatcher::kRowsAhead) {
     const RowRange rows{y, std::min(y + BandMatcher::kRowsAhead, input.end)};
     const std::int64_t begin = monotonic_ns();
-    rectify_rows(job, rows);
+    rectify_rows(job, band, rows);
     const std::int64_t rectified = monotonic_ns();
     match_rows(job, rows);
     rectify_ns_ += rectified - begin;
@@ -27,10 +27,13 @@ void BandWorker::run(const Job& job, RowRange blocks) noexcept {
   }
 }
 
-void BandWorker::rectify_rows(const Job& job, RowRange rows) noexcept {
+void BandWorker::rectify_rows(const Job& job, RowRange band, RowRange rows) noexcept {
   for (int y = rows.first; y < rows.end; ++y) {
     job.left_map.grey_row(job.pair.left.frame().luma.data, y, matcher_->left_row(y));
     job.right_map.grey_row(job.pair.right.frame().luma.data, y, matcher_->right_row(y));
+    // Rows around the band are the neighbour's to copy.
+    if (job.left_image == nullptr || y < band.first || y >= band.end) continue;
+    std::copy_n(matcher_->left_row(y), job.left_image->width(), job.left_image->row(y));
   }
 }
 

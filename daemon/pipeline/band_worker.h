@@ -25,6 +25,7 @@ class BandWorker {
     const ValidityMask& right_mask;
     OutputFrame& output;
     FramePublisher& publisher;
+    GreyImage* left_image;  ///< gets the rectified left image; null: nobody wants it
     bool announce;  ///< rows are final once they are matched; false if a filter waits for the whole frame
   };
 
@@ -37,7 +38,7 @@ class BandWorker {
   std::int64_t match_ns() const { return match_ns_; }
 
  private:
-  void rectify_rows(const Job& job, RowRange rows) noexcept;
+  void rectify_rows(const Job& job, RowRange band, RowRange rows) noexcept;
   void match_rows(const Job& job, RowRange rows) noexcept;
 
   std::unique_ptr<BandMatcher> matcher_;

@@ -37,8 +37,9 @@ int WireFormat::bytes_per_value() const {
   return (min_disparity + disparities - 1) * units_per_pixel < 0xFF ? 1 : 2;
 }
 
-FramePublisher::FramePublisher(MessageBus& bus, const WireFormat& format, Size size)
+FramePublisher::FramePublisher(MessageBus& bus, const WireFormat& format, Size size, ScanPublisher* scan)
     : bus_(bus),
+      scan_(scan),
       format_(format),
       size_(size),
       blocks_((size.height + format.rows_per_message - 1) / format.rows_per_message),
@@ -174,6 +175,8 @@ void FramePublisher::send_block(const OutputFrame& frame, int block) noexcept {
   valid_pixels_ += valid;
   keep_pace(static_cast<std::size_t>(rows_message_.size));
   if (!encoder_.publish(bus_, rows_channel_.c_str(), rows_message_)) ++refused_;
+  if (scan_ == nullptr) return;
+  for (int y = rows.first; y < rows.end; ++y) scan_->add_row(y, frame.disparity.row(y));
 }
 
 void FramePublisher::send_frame_message(const OutputFrame& frame) noexcept {
@@ -194,6 +197,7 @@ void FramePublisher::send_frame_message(const OutputFrame& frame) noexcept {
   frame_message_.filter_us = us(facts.filter_ns);
   frame_message_.publish_us = us(sent_ns - facts.matched_ns);
   frame_message_.latency_us = us(sent_ns - captured_ns);
+  if (scan_ != nullptr && !scan_->finish(frame_message_)) ++refused_;
   if (!encoder_.publish(bus_, frame_channel_.c_str(), frame_message_)) ++refused_;
 
   const std::lock_guard lock(mutex_);

@@ -12,6 +12,7 @@
 
 #include "daemon/pipeline/output_frame.h"
 #include "daemon/pipeline/recent_values.h"
+#include "daemon/pipeline/scan_publisher.h"
 #include "daemon/publish/message_bus.h"
 #include "daemon/publish/message_encoder.h"
 #include "stereod/disparity_rows_t.hpp"
@@ -49,8 +50,9 @@ struct PublisherFigures {
 /// waits, so that a burst does not overrun the receivers' socket buffers. Workers never wait for the network.
 class FramePublisher {
  public:
-  /// Throws std::invalid_argument with a sentence if a block of rows does not fit in one message.
-  FramePublisher(MessageBus& bus, const WireFormat& format, Size size);
+  /// `scan`: what is shown the rows as well; it outlives the publisher. Null: nothing. Throws
+  /// std::invalid_argument with a sentence if a block of rows does not fit in one message.
+  FramePublisher(MessageBus& bus, const WireFormat& format, Size size, ScanPublisher* scan = nullptr);
   ~FramePublisher();
   FramePublisher(const FramePublisher&) = delete;
   FramePublisher& operator=(const FramePublisher&) = delete;
@@ -90,6 +92,7 @@ class FramePublisher {
   void keep_pace(std::size_t bytes) noexcept;
 
   MessageBus& bus_;
+  ScanPublisher* const scan_;
   const WireFormat format_;
   const Size size_;
   const int blocks_;

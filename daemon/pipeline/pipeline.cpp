@@ -34,6 +34,12 @@ std::string describe(const Config& config) {
   return text + ", " + std::to_string(workers) + (workers == 1 ? " worker" : " workers");
 }
 
+ScanPublisher* emplace_scan(std::optional<ScanPublisher>& scan, MessageBus& bus, const Config& config,
+                            const std::optional<Calibration>& calibration) {
+  if (!config.scan.enabled || !calibration) return nullptr;
+  return &scan.emplace(bus, config.lcm.prefix, config.scan, scan_camera(*calibration, config.matcher));
+}
+
 SourceLayout layout_of(const LumaView& luma) { return {luma.size, luma.row_stride, luma.pixel_stride}; }
 
 }  // namespace
@@ -58,13 +64,16 @@ Pipeline::Pipeline(const Config& config, std::optional<Calibration> calibration,
       calibration_(std::move(calibration)),
       size_(cameras_->rig().left->frame_size()),
       matcher_description_(describe(config)),
-      publisher_(bus, wire_format(config), size_),
+      publisher_(bus, wire_format(config), size_, emplace_scan(scan_publisher_, bus, config, calibration_)),
       pool_(config.worker_count()),
       alignment_monitor_(size_, config.matcher.min_disparity, config.matcher.disparities) {
   for (int worker = 0; worker < pool_.workers(); ++worker) workers_.emplace_back(config.matcher, size_);
   if (config.matcher.speckle_size > 0) speckle_filter_.emplace(size_);
   if (config.lcm.raw_images) {
     raw_publisher_.emplace(bus, config.lcm.prefix, config.lcm.raw_images_per_second, size_);
+  }
+  if (config.lcm.left_image.enabled) {
+    left_publisher_.emplace(bus, config.lcm.prefix, config.lcm.left_image, size_);
   }
   const auto left = cameras_->desk().layout(Side::kLeft);
   const auto right = cameras_->desk().layout(Side::kRight);
@@ -107,6 +116,7 @@ void Pipeline::stop() noexcept {
   if (started_) cameras_->stop();
   publisher_.stop();
   if (raw_publisher_) raw_publisher_->stop();
+  if (left_publisher_) left_publisher_->stop();
   if (matching_thread_.joinable()) matching_thread_.join();
   if (started_) cameras_->desk().clear();  // the leases end before their sources do
 }
@@ -118,6 +128,7 @@ PipelineFigures Pipeline::take_figures() {
   figures.published.frames += frames_before_;
   figures.published.messages_refused += refused_before_;
   if (raw_publisher_) figures.published.messages_refused += raw_publisher_->refused();
+  if (left_publisher_) figures.published.messages_refused += left_publisher_->refused();
   return figures;
 }
 
@@ -143,7 +154,8 @@ void Pipeline::matching_thread() noexcept {
 void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
   FrameFacts& facts = output.facts;
   facts.frame = next_frame_++;
-  facts.utime = wall_us_of(pair.left_ns);
+  const std::int64_t own_utime = pair.left.frame().utime;
+  facts.utime = own_utime != 0 ? own_utime : wall_us_of(pair.left_ns);
   facts.left_ns = pair.left_ns;
   facts.right_ns = pair.right_ns;
   facts.left_sequence = pair.left.frame().sequence;
@@ -159,7 +171,7 @@ void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
   // After what is urgent.
   alignment_monitor_.frame_matched({*left_map_, *left_mask_, pair.left.frame().luma.data},
                                    {*right_map_, *right_mask_, pair.right.frame().luma.data}, match_ns);
-  if (raw_publisher_) raw_publisher_->offer(pair);
+  if (raw_publisher_) raw_publisher_->offer(pair, facts.utime);
 }
 
 // The tables are made when the first frame shows how its pixels lie in memory, and again if that ever
@@ -178,8 +190,9 @@ void Pipeline::prepare_maps(const SourceLayout& left, const SourceLayout& right)
 }
 
 void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {
-  const BandWorker::Job job{pair,         *left_map_, *right_map_, *left_mask_,
-                            *right_mask_, output,     publisher_,  !speckle_filter_};
+  GreyImage* const left_image = left_publisher_ ? left_publisher_->take_if_due() : nullptr;
+  const BandWorker::Job job{pair,   *left_map_, *right_map_, *left_mask_,     *right_mask_,
+                            output, publisher_, left_image,  !speckle_filter_};
   const int blocks = publisher_.blocks();
   const int bands = std::min(pool_.workers(), blocks);
   pool_.run(bands, [&](int band, int /*worker*/) {
@@ -192,6 +205,7 @@ void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {
   }
   output.facts.rectify_ns = rectify_ns / bands;
   output.facts.match_ns = match_ns / bands;
+  if (left_image != nullptr) left_publisher_->send(output.facts.utime);
 }
 
 void Pipeline::filter_frame(OutputFrame& output) noexcept {

@@ -17,6 +17,7 @@
 #include "daemon/pipeline/band_worker.h"
 #include "daemon/pipeline/cameras.h"
 #include "daemon/pipeline/frame_publisher.h"
+#include "daemon/pipeline/left_publisher.h"
 #include "daemon/pipeline/raw_publisher.h"
 
 namespace stereod {
@@ -89,11 +90,13 @@ class Pipeline {
   const std::optional<Calibration> calibration_;
   const Size size_;
   std::string matcher_description_;
+  std::optional<ScanPublisher> scan_publisher_;
   FramePublisher publisher_;
   WorkerPool pool_;
   std::vector<BandWorker> workers_;
   std::optional<SpeckleFilter> speckle_filter_;
   std::optional<RawPublisher> raw_publisher_;
+  std::optional<LeftPublisher> left_publisher_;
   std::optional<RectifyMap> left_map_, right_map_;
   std::optional<ValidityMask> left_mask_, right_mask_;  // of the maps
   mutable std::mutex scheduling_mutex_;

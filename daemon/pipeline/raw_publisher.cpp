@@ -44,7 +44,7 @@ void RawPublisher::stop() noexcept {
   if (thread_.joinable()) thread_.join();
 }
 
-void RawPublisher::offer(const LeasedPair& pair) noexcept {
+void RawPublisher::offer(const LeasedPair& pair, std::int64_t utime) noexcept {
   const std::int64_t now = monotonic_ns();
   if (now < next_ns_) return;
   {
@@ -52,7 +52,7 @@ void RawPublisher::offer(const LeasedPair& pair) noexcept {
     if (!lock || full_) return;
     copy(pair.left.frame().luma, left_);
     copy(pair.right.frame().luma, right_);
-    left_.utime = wall_us_of(pair.left_ns);
+    left_.utime = utime;
     right_.utime = left_.utime + pair.skew_ns() / 1000;
     full_ = true;
   }

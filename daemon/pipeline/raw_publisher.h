@@ -28,8 +28,9 @@ class RawPublisher {
   RawPublisher(const RawPublisher&) = delete;
   RawPublisher& operator=(const RawPublisher&) = delete;
 
-  /// Takes a copy of the pair if one is due and the last one is sent. Allocates nothing, waits for nothing.
-  void offer(const LeasedPair& pair) noexcept;
+  /// Takes a copy of the pair if one is due and the last one is sent. `utime`: as in the messages of its
+  /// frame, by which a log knows what belongs together. Allocates nothing, waits for nothing.
+  void offer(const LeasedPair& pair, std::int64_t utime) noexcept;
   void stop() noexcept;
 
   std::int64_t refused() const noexcept { return refused_; }

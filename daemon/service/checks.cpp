@@ -33,9 +33,18 @@ void check_frame_size(const Config& config, const std::filesystem::path& file, S
   }
 }
 
+void check_calibration(const Config& config, const std::filesystem::path& file,
+                       const std::optional<Calibration>& calibration) {
+  if (!config.scan.enabled || calibration) return;
+  throw FileError(
+      place_of(file, "scan.enabled") +
+      ": found true, but without a calibration no distance is known; give one, or allowed is false");
+}
+
 Rig open_checked_rig(const Config& config, const std::filesystem::path& file) {
   check_config(config, file);
   Rig rig = open_rig(config);
+  check_calibration(config, file, rig.calibration);
   check_frame_size(config, file, rig.left->frame_size());
   return rig;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "daemon/capture/rig.h"
 #include "daemon/config/config.h"
@@ -15,7 +16,11 @@ void check_config(const Config& config, const std::filesystem::path& file);
 /// That frames of this size can be matched and published. Throws FileError.
 void check_frame_size(const Config& config, const std::filesystem::path& file, Size size);
 
-/// Finds everything that can never work before anything touches the network, which may only be late: both
+/// That nothing is asked for that needs a calibration and has none. Throws FileError.
+void check_calibration(const Config& config, const std::filesystem::path& file,
+                       const std::optional<Calibration>& calibration);
+
+/// Finds everything that can never work before anything touches the network, which may only be late: these
 /// checks and open_rig(). Throws FileError.
 Rig open_checked_rig(const Config& config, const std::filesystem::path& file);
 

@@ -96,6 +96,7 @@ void Service::adopt(const Config& config) {
   if (keep_cameras) {
     check_frame_size(config, file_, cameras->rig().left->frame_size());
     calibration = calibration_for(config, cameras->rig());
+    check_calibration(config, file_, calibration);
   } else {
     Rig rig = open_checked_rig(config, file_);
     calibration = rig.calibration;

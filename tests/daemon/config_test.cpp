@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <numbers>
 #include <regex>
 #include <string>
 
@@ -49,6 +50,7 @@ cameras:
   fps: 12.5
   max_skew_ms: 7
   replay: {left: l.png, right: /abs/r.png, loop: false}
+  log: {file: field.lcm, prefix: REAR, loop: true}
   synthetic: {width: 320, height: 240, skew_ms: 3}
 calibration: calibration.yaml
 matcher:
@@ -71,7 +73,19 @@ matcher:
 rectify: {interpolation: bilinear, zoom: 0.25}
 workers: 3
 scheduling: {priority: 10, cpus: "0,2-4"}
-lcm: {url: "memq://", prefix: FRONT, rows_per_message: 8, spread: 0.5}
+lcm: {url: "memq://", prefix: FRONT, rows_per_message: 8, spread: 0.5, left_image: grey, left_images_per_second: 3}
+scan:
+  enabled: true
+  ground: given
+  camera_height_m: 0.31
+  camera_pitch_deg: 18
+  lowest_m: 0.03
+  highest_m: 0.7
+  max_range_m: 5
+  rays: 33
+  min_support: 44
+  stop_distance_m: 0.6
+  stop_width_m: 0.5
 log: {level: debug}
 )");
   EXPECT_EQ(config.cameras.source, SourceKind::kReplay);
@@ -106,6 +120,23 @@ log: {level: debug}
   EXPECT_EQ(config.lcm.prefix, "FRONT");
   EXPECT_EQ(config.lcm.rows_per_message, 8);
   EXPECT_EQ(config.lcm.spread, 0.5);
+  EXPECT_EQ(config.cameras.log_file, directory_ / "field.lcm");
+  EXPECT_EQ(config.cameras.log_prefix, "REAR");
+  EXPECT_TRUE(config.cameras.log_loop);
+  EXPECT_TRUE(config.lcm.left_image.enabled);
+  EXPECT_FALSE(config.lcm.left_image.jpeg);
+  EXPECT_EQ(config.lcm.left_image.per_second, 3);
+  EXPECT_TRUE(config.scan.enabled);
+  EXPECT_FALSE(config.scan.fit_ground);
+  EXPECT_EQ(config.scan.ground.height_m, 0.31);
+  EXPECT_DOUBLE_EQ(config.scan.ground.pitch_rad, std::numbers::pi / 10);
+  EXPECT_EQ(config.scan.options.lowest_m, 0.03);
+  EXPECT_EQ(config.scan.options.highest_m, 0.7);
+  EXPECT_EQ(config.scan.options.max_range_m, 5);
+  EXPECT_EQ(config.scan.options.rays, 33);
+  EXPECT_EQ(config.scan.options.min_support, 44);
+  EXPECT_EQ(config.scan.options.stop_distance_m, 0.6);
+  EXPECT_EQ(config.scan.options.stop_width_m, 0.5);
   EXPECT_EQ(config.log_level, "debug");
 }
 
@@ -164,10 +195,20 @@ INSTANTIATE_TEST_SUITE_P(
     Config, BadConfigFile,
     testing::Values(
         BadConfig{"matcher: {}\n", "stereod.yaml: cameras: is missing"},
+        BadConfig{
+            "cameras: {source: synthetic}\nscan: {lowest_m: 0.5, highest_m: 0.5}\n",
+            "stereod.yaml:2: scan.highest_m: is not above lowest_m, so that nothing would be an obstacle"},
+        BadConfig{"cameras: {source: log}\n",
+                  "stereod.yaml: cameras.log.file: found nothing, needed is the name of an LCM log"},
+        BadConfig{"cameras: {source: synthetic}\nlcm: {left_image: png}\n",
+                  "stereod.yaml:2: lcm.left_image: found 'png', allowed are off, jpeg and grey"},
+        BadConfig{"cameras: {source: synthetic}\nscan: {ground: guess}\n",
+                  "stereod.yaml:2: scan.ground: found 'guess', allowed are fit and given"},
         BadConfig{"cameras:\nlcm: {}\n", "stereod.yaml:1: cameras.source: is missing"},
         BadConfig{"cameras:\n  fps: 3\n", "stereod.yaml:2: cameras.source: is missing"},
-        BadConfig{"cameras:\n  source: webcam\n",
-                  "stereod.yaml:2: cameras.source: found 'webcam', allowed are v4l2, replay and synthetic"},
+        BadConfig{
+            "cameras:\n  source: webcam\n",
+            "stereod.yaml:2: cameras.source: found 'webcam', allowed are v4l2, replay, synthetic and log"},
         BadConfig{"cameras:\n  source: synthetic\n  speed: 3\n",
                   "stereod.yaml:3: cameras.speed: is not a known key; the nearest known key is 'fps'"},
         BadConfig{"cameras:\n  source: synthetic\nmatcher:\n  dispariites: 64\n",

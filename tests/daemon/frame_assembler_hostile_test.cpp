@@ -1,6 +1,6 @@
 // The frame assembler and what a network may bring that is not from stereod.
+#include "daemon/client/stereod_client.h"
 #include "daemon/publish/wire_limits.h"
-#include "daemon/tools/tap/frame_assembler.h"
 
 #include <gtest/gtest.h>
 

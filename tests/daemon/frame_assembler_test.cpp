@@ -1,4 +1,4 @@
-#include "daemon/tools/tap/frame_assembler.h"
+#include "daemon/client/stereod_client.h"
 
 #include <gtest/gtest.h>
 
@@ -50,14 +50,17 @@ TEST(FrameAssembler, KeepsInterleavedFramesApart) {
     AssemblerFixture f;
     std::vector<Message> messages = messages_of(5);
     for (const Message& message : messages_of(6)) messages.push_back(message);
+    const Message last = messages.back();
+    messages.pop_back();
     for (std::size_t i = messages.size(); i > 1; --i) {
       std::swap(messages[i - 1],
                 messages[static_cast<std::size_t>(random.between(0, static_cast<int>(i) - 1))]);
     }
     f.take_all(messages);
+    f.take(last);
     f.assembler.finish();
     ASSERT_EQ(f.frames.size(), 2U);
-    for (const AssembledFrame& frame : f.frames) {
+    for (const StereoFrame& frame : f.frames) {
       EXPECT_TRUE(frame.complete());
       expect_pixels(frame);
     }
@@ -81,7 +84,7 @@ TEST(FrameAssembler, ReadsOneByteValuesAndOddInvalids) {
   f.assembler.take(summary_of(0));
   ASSERT_EQ(f.frames.size(), 1U);
   EXPECT_EQ(f.frames[0].units_per_pixel, 1);
-  EXPECT_EQ(f.frames[0].disparity.at(0, 0), kInvalidDisparity);
+  EXPECT_EQ(f.frames[0].disparity.at(0, 0), DisparityMap::kNone);
   EXPECT_EQ(f.frames[0].disparity.at(1, 0), 254);
   EXPECT_EQ(f.frames[0].disparity.at(2, 0), 9);
 }
@@ -97,30 +100,49 @@ TEST(FrameAssembler, TakesValuesBeyondInt16AsNoDisparity) {
   f.assembler.take(summary_of(0));
   ASSERT_EQ(f.frames.size(), 1U);
   EXPECT_EQ(f.frames[0].disparity.at(0, 0), 32767);
-  EXPECT_EQ(f.frames[0].disparity.at(1, 0), kInvalidDisparity);
+  EXPECT_EQ(f.frames[0].disparity.at(1, 0), DisparityMap::kNone);
 }
 
-TEST(FrameAssembler, HandsOverWhatItHasWhenTwoNewerFramesHaveBegun) {
+TEST(FrameAssembler, HandsOverWhatItHasWhenTheNextFrameIsComplete) {
   AssemblerFixture f;
   f.take_frame(0);
   for (const int row : {0, 2, 6, 8}) f.assembler.take(rows_of(1, row));
   f.assembler.take(summary_of(1));
+  EXPECT_EQ(f.frames.size(), 1U);
   f.take_frame(2);
-  EXPECT_EQ(f.frames.size(), 2U);  // 0 and 2: 1 may still be made whole
-  f.assembler.take(rows_of(3, 0));
   ASSERT_EQ(f.frames.size(), 3U);
-  const AssembledFrame& frame = f.frames[2];
+  const StereoFrame& frame = f.frames[1];
   EXPECT_EQ(frame.frame, 1);
   EXPECT_FALSE(frame.complete());
   EXPECT_EQ(frame.rows_received, 8);
   EXPECT_FALSE(frame.row_present[4]);
   EXPECT_TRUE(frame.row_present[6]);
   expect_pixels(frame);
+  EXPECT_EQ(f.frames[2].frame, 2);
+  EXPECT_TRUE(f.frames[2].complete());
+  f.assembler.take(rows_of(1, 4));  // too late
+  f.assembler.take(rows_of(1, 2));  // again
+  EXPECT_EQ(f.counts().messages_late, 1);
+  EXPECT_EQ(f.counts().rows_duplicate, 2);
+  EXPECT_EQ(f.frames.size(), 3U);
+  f.assembler.finish();
   EXPECT_EQ(f.counts().frames_incomplete, 1);
   EXPECT_EQ(f.counts().rows_lost, 2);
+}
+
+TEST(FrameAssembler, HandsOverWhatItHasWhenTwoNewerFramesHaveBegun) {
+  AssemblerFixture f;
+  f.take_frame(0);
+  f.assembler.take(rows_of(1, 0));
+  f.assembler.take(rows_of(2, 0));
+  EXPECT_EQ(f.frames.size(), 1U);  // 1 may still be made whole
+  f.assembler.take(rows_of(3, 0));
+  ASSERT_EQ(f.frames.size(), 2U);
+  EXPECT_EQ(f.frames[1].frame, 1);
+  EXPECT_EQ(f.frames[1].rows_received, 2);
   f.assembler.take(rows_of(1, 4));  // too late
   EXPECT_EQ(f.counts().messages_late, 1);
-  EXPECT_EQ(f.frames.size(), 3U);
+  EXPECT_EQ(f.frames.size(), 2U);
 }
 
 TEST(FrameAssembler, ReportsAFrameWhoseLastMessageIsMissing) {
@@ -248,7 +270,7 @@ TEST(FrameAssembler, CountsAddUpWhateverIsLostAndShuffled) {
     EXPECT_EQ(f.counts().rows_lost, lost_rows);
     EXPECT_EQ(f.counts().messages_ignored, 0);
     EXPECT_EQ(f.frames.size(), static_cast<std::size_t>(kFrames - f.counts().frames_missing));
-    for (const AssembledFrame& frame : f.frames) expect_pixels(frame);
+    for (const StereoFrame& frame : f.frames) expect_pixels(frame);
   }
 }
 

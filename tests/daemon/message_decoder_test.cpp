@@ -30,6 +30,13 @@ disparity_rows_t sample() {
   return rows;
 }
 template <>
+planar_lidar_t sample() {
+  planar_lidar_t scan{};
+  scan.nranges = scan.nintensities = 3;
+  scan.ranges = scan.intensities = {1, 2, 3};
+  return scan;
+}
+template <>
 status_t sample() {
   status_t status{};
   status.state = "degraded";
@@ -40,7 +47,7 @@ status_t sample() {
 
 template <typename Message>
 class Decoding : public testing::Test {};
-using Messages = testing::Types<disparity_rows_t, frame_t, camera_info_t, status_t>;
+using Messages = testing::Types<disparity_rows_t, frame_t, camera_info_t, status_t, image_t, planar_lidar_t>;
 TYPED_TEST_SUITE(Decoding, Messages);
 
 // Also the proof that kWireLayout says what the .lcm files say.

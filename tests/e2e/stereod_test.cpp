@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/client/stereod_client.h"
 #include "daemon/imagefile/pfm_file.h"
 #include "daemon/imagefile/read_image.h"
 #include "daemon/imagefile/write_image.h"
@@ -86,14 +87,14 @@ TEST_P(StereodRows, ArriveInAnotherProcessAsStereoMatchMakesThem) {
     expected.emplace(i, matched_by_tool(directory_.path(), i, GetParam().options));
 
   int frames = 0;
-  FrameAssembler assembler([&](AssembledFrame&& frame) {
+  FrameAssembler assembler([&](StereoFrame&& frame) {
     ASSERT_TRUE(frame.complete()) << "frame " << frame.frame;
     ++frames;
     const Image<float>& want = expected.at(frame.summary->left_sequence % kPairs);
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {
         const int units = frame.disparity.at(x, y);
-        const float got = units == kInvalidDisparity
+        const float got = units == DisparityMap::kNone
                               ? INFINITY
                               : static_cast<float>(units) / static_cast<float>(frame.units_per_pixel);
         ASSERT_EQ(got, want.at(x, y)) << "frame " << frame.frame << ", pixel (" << x << ", " << y << ")";
@@ -134,7 +135,7 @@ TEST_F(StereodTest, PlaysARecordingOnceAndEnds) {
   std::ofstream(file) << "cameras: {source: replay, fps: 0, replay: {folder: ., loop: false}}\nlcm: {url: \""
                       << kUrl << "\", prefix: E2E}\n";
   int frames = 0;
-  FrameAssembler assembler([&](AssembledFrame&& frame) {
+  FrameAssembler assembler([&](StereoFrame&& frame) {
     EXPECT_EQ(frame.summary->left_sequence, frames);
     ++frames;
   });
@@ -351,6 +352,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "bad.yaml:2: matcher.isa: isa is neon, which this CPU or this build does not have"},
         BadStart{"TooManyRows", "cameras: {source: synthetic}\nlcm: {rows_per_message: 200}\n",
                  "bad.yaml:2: lcm.rows_per_message: found 200"},
+        BadStart{"ScanWithoutCalibration",
+                 "cameras: {source: replay, replay: {left: left_00.png, right: right_00.png}}\nscan: "
+                 "{enabled: true}\n",
+                 "bad.yaml:2: scan.enabled: found true, but without a calibration no distance is known"},
         BadStart{"BadLcmUrl", "cameras: {source: synthetic}\nlcm: {url: \"carrier-pigeon://\"}\n",
                  "bad.yaml:2: lcm.url: LCM URL 'carrier-pigeon://'"}),
     [](const auto& tested) { return std::string(tested.param.name); });

@@ -8,13 +8,11 @@
 #include <vector>
 
 #include "tests/fuzz/camera_frame_fuzz.h"
+#include "tests/fuzz/mutation.h"
 #include "tests/support/camera_jpeg.h"
-#include "tests/support/random_images.h"
 
 namespace stereod {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
 
 /// Inputs that are taken for frames, one of each format.
 std::vector<Bytes> seeds() {
@@ -29,30 +27,6 @@ std::vector<Bytes> seeds() {
     seeds.push_back(seed);
   }
   return seeds;
-}
-
-void mutate(Bytes& bytes, Random& random) {
-  const int changes = random.between(1, 12);
-  for (int i = 0; i < changes && !bytes.empty(); ++i) {
-    const auto at = static_cast<std::size_t>(random.between(0, static_cast<int>(bytes.size()) - 1));
-    switch (random.between(0, 4)) {
-      case 0:
-        bytes[at] = static_cast<std::uint8_t>(random.between(0, 255));
-        break;
-      case 1:
-        bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ (1 << random.between(0, 7)));
-        break;
-      case 2:
-        bytes.resize(at);
-        break;
-      case 3:
-        bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                     static_cast<std::size_t>(random.between(1, 9)), 0xff);
-        break;
-      default:
-        bytes[random.between(0, 3) == 0 ? at : at % 16] = static_cast<std::uint8_t>(random.between(0, 255));
-    }
-  }
 }
 
 }  // namespace
@@ -78,7 +52,7 @@ int main(int argc, char** argv) {
     }
     for (int round = 0; round < kRounds; ++round, ++inputs) {
       stereod::Bytes bytes = seed;
-      stereod::mutate(bytes, random);
+      stereod::mutate(bytes, random, 16);
       LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
       frames += stereod::last_input_was_a_frame ? 1 : 0;
     }

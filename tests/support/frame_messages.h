@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "daemon/tools/tap/frame_assembler.h"
+#include "daemon/client/stereod_client.h"
 
 namespace stereod {
 
@@ -64,6 +64,21 @@ inline frame_t summary_of(std::int64_t frame) {
   return m;
 }
 
+/// A calibrated camera: depth is 50 m / disparity in px.
+inline camera_info_t camera_info_of() {
+  camera_info_t m{};
+  m.width = kWidth;
+  m.height = kHeight;
+  m.calibrated = 1;
+  m.fx = m.fy = 500;
+  m.cx = 6;
+  m.cy = 5;
+  m.baseline_m = 0.1;
+  m.disparities = 64;
+  m.calibration_id = "1";
+  return m;
+}
+
 using Message = std::variant<disparity_rows_t, frame_t>;
 
 /// All messages of a frame, in the daemon's order.
@@ -76,8 +91,8 @@ inline std::vector<Message> messages_of(std::int64_t frame) {
 
 /// An assembler and what it handed over.
 struct AssemblerFixture {
-  std::vector<AssembledFrame> frames;
-  FrameAssembler assembler{[this](AssembledFrame&& frame) { frames.push_back(std::move(frame)); }};
+  std::vector<StereoFrame> frames;
+  FrameAssembler assembler{[this](StereoFrame&& frame) { frames.push_back(std::move(frame)); }};
 
   void take(const Message& message) {
     std::visit([this](const auto& m) { assembler.take(m); }, message);
@@ -90,14 +105,15 @@ struct AssemblerFixture {
 };
 
 /// Every pixel is what was sent, or invalid where its row did not arrive.
-inline void expect_pixels(const AssembledFrame& frame) {
-  ASSERT_EQ(frame.disparity.size(), (Size{kWidth, kHeight}));
+inline void expect_pixels(const StereoFrame& frame) {
+  ASSERT_EQ(frame.disparity.width(), kWidth);
+  ASSERT_EQ(frame.disparity.height(), kHeight);
   ASSERT_EQ(frame.row_present.size(), static_cast<std::size_t>(kHeight));
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const int sent = value_at(frame.frame, x, y);
       const bool valid = sent != 65535 && frame.row_present[static_cast<std::size_t>(y)];
-      EXPECT_EQ(frame.disparity.at(x, y), valid ? sent : kInvalidDisparity)
+      EXPECT_EQ(frame.disparity.at(x, y), valid ? sent : DisparityMap::kNone)
           << "frame " << frame.frame << " " << y;
     }
   }

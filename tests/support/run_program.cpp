@@ -68,6 +68,8 @@ ProgramRun ChildProgram::wait() {
   return run;
 }
 
+std::string ChildProgram::out_so_far() const { return content_of(out_); }
+
 std::string ChildProgram::err_so_far() const { return content_of(err_); }
 
 ProgramRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,

@@ -30,6 +30,8 @@ class ChildProgram {
   ProgramRun wait();
   /// What it has written to stderr so far.
   std::string err_so_far() const;
+  /// The same of stdout.
+  std::string out_so_far() const;
 
  private:
   std::filesystem::path out_, err_;

@@ -5,7 +5,11 @@ set(package_dir ${CMAKE_CURRENT_LIST_DIR})
 set(unit_dir lib/systemd/system)  # Debian 12's, seen from the root
 
 # --- stereod
-install(TARGETS stereod stereo-match stereo-tap RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT stereod)
+set(programs stereod stereo-match stereo-tap)
+if(TARGET stereo-view)
+  list(APPEND programs stereo-view)
+endif()
+install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT stereod)
 install(FILES ${PROJECT_SOURCE_DIR}/etc/stereod.yaml DESTINATION /etc/stereod COMPONENT stereod)
 install(FILES
   ${PROJECT_SOURCE_DIR}/systemd/stereod.service

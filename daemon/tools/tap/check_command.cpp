@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "daemon/tools/tap/frame_assembler.h"
+#include "daemon/client/stereod_client.h"
 #include "daemon/tools/tap/frame_listener.h"
 #include "daemon/tools/tap/lcm_receiver.h"
 #include "daemon/tools/tap/reception_report.h"
@@ -24,7 +24,7 @@ std::int64_t now_utime() {
 
 Reception receive_for(const TapOptions& tap, double seconds, LcmReceiver& receiver, StopSignals& stop) {
   Reception reception;
-  FrameAssembler assembler([&reception](AssembledFrame&& frame) {
+  FrameAssembler assembler([&reception](StereoFrame&& frame) {
     if (!frame.complete()) return;
     reception.arrival_ms.push_back(static_cast<double>(now_utime() - frame.utime) / 1e3);
     reception.latency_ms.push_back(static_cast<double>(frame.summary->latency_us) / 1e3);

@@ -1,7 +1,7 @@
 // From LCM's messages to the frame assembler.
 #pragma once
 
-#include "daemon/tools/tap/frame_assembler.h"
+#include "daemon/client/stereod_client.h"
 #include "daemon/tools/tap/lcm_receiver.h"
 #include "daemon/tools/tap/tap.h"
 

@@ -32,9 +32,19 @@ void LcmReceiver::subscribe(const std::string& channel, Handler handler) {
   if (channel.empty() || channel.size() > LCM_MAX_CHANNEL_NAME_LENGTH) {
     throw BusError("channel '" + channel + "': a name has 1 to 63 characters.", true);
   }
+  subscribe_pattern(literal_pattern(channel),
+                    [handler = std::move(handler)](std::string_view, std::int64_t,
+                                                   std::span<const std::byte> data) { handler(data); });
+}
+
+void LcmReceiver::subscribe_all(const std::string& prefix, AnyHandler handler) {
+  subscribe_pattern(literal_pattern(prefix) + "_.*", std::move(handler));
+}
+
+void LcmReceiver::subscribe_pattern(const std::string& pattern, AnyHandler handler) {
   subscriptions_.push_back(std::make_unique<Subscription>(Subscription{std::move(handler), nullptr}));
   lcm_subscription_t* subscription =
-      lcm_subscribe(lcm_.get(), literal_pattern(channel).c_str(), &on_message, subscriptions_.back().get());
+      lcm_subscribe(lcm_.get(), pattern.c_str(), &on_message, subscriptions_.back().get());
   if (subscription == nullptr || lcm_get_fileno(lcm_.get()) < 0) {
     throw BusError(
         "LCM cannot receive on " + url() +
@@ -55,13 +65,13 @@ bool LcmReceiver::receive(std::chrono::milliseconds timeout) {
 }
 
 /// Called by LCM, which is C: no exception may pass through it, so it waits in the subscription.
-void LcmReceiver::on_message(const lcm_recv_buf_t* message, const char* /*channel*/,
+void LcmReceiver::on_message(const lcm_recv_buf_t* message, const char* channel,
                              void* subscription) noexcept {
   auto& target = *static_cast<Subscription*>(subscription);
   if (target.error) return;
   try {
     const auto* data = static_cast<const std::byte*>(message->data);
-    target.handler({data, message->data_size});
+    target.handler(channel, message->recv_utime, {data, message->data_size});
   } catch (...) {
     target.error = std::current_exception();
   }

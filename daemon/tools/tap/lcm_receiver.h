@@ -3,12 +3,14 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "daemon/publish/lcm_handle.h"
@@ -29,6 +31,12 @@ class LcmReceiver {
   /// the network does not carry multicast back to this machine.
   void subscribe(const std::string& channel, Handler handler);
 
+  /// Takes a message with its channel and the time it was received, µs since the Unix epoch.
+  using AnyHandler = std::function<void(std::string_view, std::int64_t, std::span<const std::byte>)>;
+
+  /// The same for every channel that begins with `prefix` and '_'.
+  void subscribe_all(const std::string& prefix, AnyHandler handler);
+
   /// Waits for one message and handles it; false if none came in time. Throws what the handler throws, and
   /// BusError at the end of a log file.
   bool receive(std::chrono::milliseconds timeout);
@@ -41,9 +49,10 @@ class LcmReceiver {
 
  private:
   struct Subscription {
-    Handler handler;
+    AnyHandler handler;
     std::exception_ptr error;
   };
+  void subscribe_pattern(const std::string& pattern, AnyHandler handler);
   static void on_message(const lcm_recv_buf_t* message, const char* channel, void* subscription) noexcept;
 
   LcmUrl url_;

@@ -20,6 +20,8 @@ struct CommandLine {
   StatusOptions status;
   SaveOptions save;
   CheckOptions check;
+  RecordOptions record;
+  PlayOptions play;
   std::function<int(StopSignals&)> command;
 };
 
@@ -70,6 +72,30 @@ void add_check(CLI::App& app, CommandLine& line) {
   });
 }
 
+void add_record(CLI::App& app, CommandLine& line) {
+  CLI::App* command = app.add_subcommand(
+      "record", "Records all of the daemon's channels into an LCM log, and says what is in it.");
+  command->add_option("file", line.record.file, "the log; replaced if it is there")->required();
+  command->add_option("--seconds", line.record.seconds, "how long; 0: until Ctrl-C")
+      ->check(CLI::Range(0.0, 1e8))
+      ->capture_default_str();
+  command->callback([&line] {
+    line.command = [&line](StopSignals& stop) { return run_record(line.tap, line.record, stop); };
+  });
+}
+
+void add_play(CLI::App& app, CommandLine& line) {
+  CLI::App* command = app.add_subcommand(
+      "play", "Publishes what is in an LCM log, at the pace of the log, and says what it was.");
+  command->add_option("file", line.play.file, "the log")->required();
+  command->add_option("--speed", line.play.speed, "2: twice as fast")
+      ->check(CLI::Range(0.001, 1000.0))
+      ->capture_default_str();
+  command->add_flag("--list", line.play.list_only, "only say what is in it");
+  command->callback(
+      [&line] { line.command = [&line](StopSignals& stop) { return run_play(line.tap, line.play, stop); }; });
+}
+
 int run(int argc, char** argv) {
   CommandLine line;
   CLI::App app("Listens to stereod over LCM: shows its status, saves its disparities, checks what arrives.",
@@ -81,6 +107,8 @@ int run(int argc, char** argv) {
   add_status(app, line);
   add_save(app, line);
   add_check(app, line);
+  add_record(app, line);
+  add_play(app, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help

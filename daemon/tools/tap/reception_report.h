@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/tools/tap/frame_assembler.h"
+#include "daemon/client/stereod_client.h"
 
 namespace stereod {
 

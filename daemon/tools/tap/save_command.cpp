@@ -1,16 +1,16 @@
 // stereo-tap save: frames into files.
 #include <chrono>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 
+#include "daemon/client/stereod_client.h"
 #include "daemon/imagefile/disparity_file.h"
 #include "daemon/imagefile/disparity_picture.h"
 #include "daemon/imagefile/write_image.h"
-#include "daemon/tools/tap/frame_assembler.h"
 #include "daemon/tools/tap/frame_listener.h"
 #include "daemon/tools/tap/lcm_receiver.h"
 #include "daemon/tools/tap/message_decoder.h"
@@ -28,10 +28,9 @@ constexpr std::chrono::seconds kPatienceForCameraInfo{2};
 
 /// How depth follows from disparity; nothing if the message does not say so in numbers that make sense.
 std::optional<DepthScale> depth_scale_of(const camera_info_t& info) {
-  const DepthScale scale{info.fx * info.baseline_m, info.disparity_offset};
-  const bool usable = info.calibrated != 0 && std::isfinite(scale.focal_baseline) &&
-                      scale.focal_baseline > 0 && std::isfinite(scale.offset_px);
-  return usable ? std::optional<DepthScale>(scale) : std::nullopt;
+  const std::optional<CameraGeometry> camera = geometry_of(info);
+  if (!camera) return std::nullopt;
+  return DepthScale{camera->fx * camera->baseline_m, camera->disparity_offset};
 }
 
 /// Waits for the camera information; nothing if there is none, or no calibration.
@@ -57,8 +56,7 @@ double valid_share(DisparityView disparity) {
 }
 
 /// Writes frame-NUMBER.pfm and frame-NUMBER.png and says so.
-void save(const AssembledFrame& frame, const std::filesystem::path& directory,
-          std::optional<DepthScale> depth) {
+void save(const StereoFrame& frame, const std::filesystem::path& directory, std::optional<DepthScale> depth) {
   char name[40];
   std::snprintf(name, sizeof name, "frame-%06lld", static_cast<long long>(frame.frame));
   const std::filesystem::path pfm = directory / (std::string(name) + ".pfm");
@@ -66,7 +64,9 @@ void save(const AssembledFrame& frame, const std::filesystem::path& directory,
   DisparityPictureOptions look;
   look.depth = depth;
 
-  const DisparityView disparity = frame.disparity.view();
+  const DisparityMap& map = frame.disparity;
+  const DisparityView disparity(map.row(0), map.width(), map.height(),
+                                map.width() * static_cast<std::ptrdiff_t>(sizeof(std::int16_t)));
   write_disparity_pfm(pfm, disparity, frame.units_per_pixel);
   const ColorImage picture = draw_disparity(disparity, frame.units_per_pixel, look);
   write_png(png, picture.view());
@@ -112,7 +112,7 @@ int run_save(const TapOptions& tap, const SaveOptions& options, StopSignals& sto
   LcmReceiver receiver(tap.lcm_url);
   const std::optional<DepthScale> depth = wait_for_depth_scale(receiver, tap, stop);
   Tally tally;
-  FrameAssembler assembler([&](AssembledFrame&& frame) {
+  FrameAssembler assembler([&](StereoFrame&& frame) {
     if (tally.saved == options.frames) return;
     if (!frame.complete() || frame.rows_received == 0) {
       // The first frame heard has usually begun before the listening.

@@ -1,22 +1,8 @@
 #include "daemon/tools/tap/tap.h"
 
 #include <cstdio>
-#include <ctime>
 
 namespace stereod {
-
-StopSignals::StopSignals() {
-  sigemptyset(&signals_);
-  sigaddset(&signals_, SIGINT);
-  sigaddset(&signals_, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
-}
-
-bool StopSignals::arrived() {
-  const timespec no_wait{};
-  if (!arrived_) arrived_ = sigtimedwait(&signals_, nullptr, &no_wait) > 0;
-  return arrived_;
-}
 
 void complain(const std::string& sentence) { std::fprintf(stderr, "stereo-tap: %s\n", sentence.c_str()); }
 

@@ -50,11 +50,22 @@ struct SaveOptions {
 struct CheckOptions {
   double seconds = 5;
 };
+struct RecordOptions {
+  std::filesystem::path file;
+  double seconds = 0;  ///< 0: until a signal comes
+};
+struct PlayOptions {
+  std::filesystem::path file;
+  double speed = 1;        ///< > 0; 2 is twice as fast
+  bool list_only = false;  ///< say what is in it, send nothing
+};
 
 /// The commands. Each returns an ExitStatus; they throw std::runtime_error with one sentence.
 int run_status(const TapOptions& tap, const StatusOptions& options, StopSignals& stop);
 int run_save(const TapOptions& tap, const SaveOptions& options, StopSignals& stop);
 int run_check(const TapOptions& tap, const CheckOptions& options, StopSignals& stop);
+int run_record(const TapOptions& tap, const RecordOptions& options, StopSignals& stop);
+int run_play(const TapOptions& tap, const PlayOptions& options, StopSignals& stop);
 
 /// One line on stderr, after the program's name.
 void complain(const std::string& sentence);

@@ -1,0 +1,202 @@
+#include "core/obstacle_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/depth.h"
+
+namespace stereod {
+namespace {
+
+constexpr double kMargin = 1;        // px that an obstacle's disparity is above the ground's
+constexpr double kLeastSeen = 0.05;  // share of a direction's pixels; less says nothing about it
+
+std::int16_t to_units(double px, int units_per_pixel) {
+  constexpr double kMost = std::numeric_limits<std::int16_t>::max();
+  return static_cast<std::int16_t>(std::clamp(std::floor(px * units_per_pixel), 0.0, kMost));
+}
+
+}  // namespace
+
+ObstacleScan::ObstacleScan(const ScanOptions& options, const ScanCamera& camera, const GroundPlane& ground)
+    : options_(options),
+      camera_(camera),
+      bins_per_group_(camera.min_disparity + camera.disparities + 1),
+      above_(static_cast<std::size_t>(camera.size.height)),
+      below_(static_cast<std::size_t>(camera.size.height)),
+      group_of_(static_cast<std::size_t>(camera.size.width)),
+      group_columns_(static_cast<std::size_t>(options.rays)),
+      seen_(static_cast<std::size_t>(camera.size.width)),
+      bins_(static_cast<std::size_t>(options.rays) * static_cast<std::size_t>(bins_per_group_)) {
+  const auto rays = static_cast<std::size_t>(options.rays);
+  result_.range_m.resize(rays);
+  result_.support.resize(rays);
+  const double right = std::atan((camera.cx - camera.size.width) / camera.fx);
+  const double left = std::atan(camera.cx / camera.fx);
+  const double step = (left - right) / options.rays;
+  result_.first_rad = static_cast<float>(right + step / 2);
+  result_.step_rad = static_cast<float>(step);
+  for (int x = 0; x < camera.size.width; ++x) {
+    const double angle = std::atan((camera.cx - x - 0.5) / camera.fx);
+    const int group = std::clamp(static_cast<int>((angle - right) / step), 0, options.rays - 1);
+    group_of_[static_cast<std::size_t>(x)] = static_cast<std::int16_t>(group);
+    RowRange& columns = group_columns_[static_cast<std::size_t>(group)];
+    if (columns.count() == 0) columns.first = x;
+    columns.end = x + 1;
+  }
+  set_ground(ground);
+}
+
+// With y' = (y − cy) / fy and Z the depth, a pixel is Z · (y' cos + sin) below the camera, so its height
+// above the ground is h − f·B / d · (y' cos + sin): a height is a disparity.
+void ObstacleScan::set_ground(const GroundPlane& ground) noexcept {
+  ground_ = ground;
+  sin_pitch_ = std::sin(ground.pitch_rad);
+  cos_pitch_ = std::cos(ground.pitch_rad);
+  const double focal_baseline = camera_.fx * camera_.baseline_m;
+  const double h = ground.height_m;
+  for (int y = 0; y < camera_.size.height; ++y) {
+    const double down = (y - camera_.cy) / camera_.fy * cos_pitch_ + sin_pitch_;
+    const double forward = cos_pitch_ - (y - camera_.cy) / camera_.fy * sin_pitch_;
+    // Disparity at which something this row shows is so high; what goes up from there is higher if the row
+    // looks down, and lower if it looks up.
+    const auto at_height = [&](double height) { return focal_baseline * down / (h - height); };
+    double above = focal_baseline * std::max(forward, 0.0) / options_.max_range_m;
+    double below = std::numeric_limits<double>::max();
+    if (down > 0) {
+      above = std::max(above, at_height(0) + kMargin);
+      if (options_.lowest_m < h) above = std::max(above, at_height(options_.lowest_m));
+      if (options_.lowest_m >= h) below = 0;
+      if (options_.highest_m < h) below = at_height(options_.highest_m);
+    } else if (options_.highest_m > h) {
+      above = std::max(above, at_height(options_.highest_m));
+      if (options_.lowest_m > h) below = at_height(options_.lowest_m);
+    } else {
+      below = 0;  // this row sees only what is above the camera, which can be driven under
+    }
+    const auto row = static_cast<std::size_t>(y);
+    const double offset = camera_.disparity_offset;
+    above_[row] = to_units(above - offset, camera_.units_per_pixel);
+    below_[row] = below > 1e6 ? std::numeric_limits<std::int16_t>::max()
+                              : to_units(below - offset, camera_.units_per_pixel);
+  }
+}
+
+void ObstacleScan::add_row(int y, const std::int16_t* disparity) noexcept {
+  if (y % kRowStep != 0) return;
+  const int width = camera_.size.width;
+  for (int x = 0; x < width; ++x) {
+    seen_[static_cast<std::size_t>(x)] =
+        static_cast<std::uint16_t>(seen_[static_cast<std::size_t>(x)] + (disparity[x] >= 0 ? 1 : 0));
+  }
+  ++rows_;
+  const std::int16_t above = above_[static_cast<std::size_t>(y)], below = below_[static_cast<std::size_t>(y)];
+  if (above >= below) return;
+  constexpr int kBlock = 16;  // pixels of which usually none counts, found out by vector instructions
+  const int units = camera_.units_per_pixel;
+  for (int first = 0; first < width; first += kBlock) {
+    const int end = std::min(first + kBlock, width);
+    int any = 0;
+    for (int x = first; x < end; ++x) any |= (disparity[x] > above) & (disparity[x] <= below);
+    if (any == 0) continue;
+    for (int x = first; x < end; ++x) {
+      const int value = disparity[x];
+      if (value <= above || value > below) continue;
+      const int bin = value / units;
+      if (bin >= bins_per_group_) continue;
+      Bin& counted = bins_of(group_of_[static_cast<std::size_t>(x)])[bin];
+      ++counted.count;
+      counted.sum_units += value;
+      counted.sum_y += y;
+    }
+  }
+}
+
+const ScanResult& ObstacleScan::finish() noexcept {
+  std::fill(result_.support.begin(), result_.support.end(), 0.0F);
+  std::fill(result_.range_m.begin(), result_.range_m.end(), static_cast<float>(options_.max_range_m));
+  for (int group = 0; group < options_.rays; ++group) {
+    const RowRange columns = group_columns_[static_cast<std::size_t>(group)];
+    int seen = 0;
+    for (int x = columns.first; x < columns.end; ++x) seen += seen_[static_cast<std::size_t>(x)];
+    if (seen <= kLeastSeen * columns.count() * rows_) result_.range_m[static_cast<std::size_t>(group)] = 0;
+  }
+  for (int group = 0; group < options_.rays; ++group) {
+    Obstacle obstacle{};
+    if (nearest_obstacle(group, obstacle)) enter(group, obstacle);
+  }
+  look_ahead();
+  std::fill(bins_.begin(), bins_.end(), Bin());
+  std::fill(seen_.begin(), seen_.end(), std::uint16_t{0});
+  rows_ = 0;
+  return result_;
+}
+
+bool ObstacleScan::nearest_obstacle(int group, Obstacle& obstacle) noexcept {
+  const Bin* bins = bins_of(group);
+  const int needed = std::max(1, options_.min_support / kRowStep);
+  for (int bin = bins_per_group_ - 1; bin > 0; --bin) {
+    const Bin &one = bins[bin], &other = bins[bin - 1];
+    const int count = one.count + other.count;
+    if (count < needed) continue;
+    obstacle.disparity_px =
+        static_cast<double>(one.sum_units + other.sum_units) / count / camera_.units_per_pixel;
+    obstacle.y = static_cast<double>(one.sum_y + other.sum_y) / count;
+    obstacle.pixels = count * kRowStep;
+    return true;
+  }
+  return false;
+}
+
+// A camera that looks down spreads its columns over the ground as a fan wider than its own.
+double ObstacleScan::bearing(double x, double y) const noexcept {
+  const double forward = cos_pitch_ - (y - camera_.cy) / camera_.fy * sin_pitch_;
+  return std::atan2((camera_.cx - x) / camera_.fx, forward);
+}
+
+int ObstacleScan::ray_at(double bearing_rad) const noexcept {
+  const double ray =
+      (bearing_rad - static_cast<double>(result_.first_rad)) / static_cast<double>(result_.step_rad);
+  return static_cast<int>(std::floor(ray + 0.5));
+}
+
+void ObstacleScan::enter(int group, const Obstacle& obstacle) noexcept {
+  const RowRange columns = group_columns_[static_cast<std::size_t>(group)];
+  const double z = depth_m(camera_.fx, camera_.baseline_m, camera_.disparity_offset, obstacle.disparity_px);
+  const double forward = z * (cos_pitch_ - (obstacle.y - camera_.cy) / camera_.fy * sin_pitch_);
+  const double across = z * ((columns.first + columns.end) / 2.0 - camera_.cx) / camera_.fx;
+  const auto range = static_cast<float>(std::hypot(forward, across));
+  if (!(range < static_cast<float>(options_.max_range_m))) return;
+  // Half a pixel in, so that a border between two directions belongs to one.
+  const int first = std::max(ray_at(bearing(columns.end - 0.5, obstacle.y)), 0);
+  const int last = std::min(ray_at(bearing(columns.first + 0.5, obstacle.y)), options_.rays - 1);
+  for (int ray = first; ray <= last; ++ray) {
+    const auto i = static_cast<std::size_t>(ray);
+    if (result_.support[i] > 0 && result_.range_m[i] <= range) continue;
+    result_.range_m[i] = range;
+    result_.support[i] = static_cast<float>(obstacle.pixels);
+  }
+}
+
+// What stands within half the width to either side of straight ahead, and whether straight ahead is seen at
+// all.
+void ObstacleScan::look_ahead() noexcept {
+  double nearest = options_.max_range_m;
+  bool blind = true;
+  for (std::size_t i = 0; i < result_.range_m.size(); ++i) {
+    const double angle = static_cast<double>(result_.first_rad) +
+                         static_cast<double>(i) * static_cast<double>(result_.step_rad);
+    const double range = static_cast<double>(result_.range_m[i]);
+    const bool ahead = std::abs(options_.stop_distance_m * std::sin(angle)) <= options_.stop_width_m / 2;
+    if (ahead && range > 0) blind = false;
+    if (result_.support[i] == 0) continue;
+    if (std::abs(range * std::sin(angle)) <= options_.stop_width_m / 2) {
+      nearest = std::min(nearest, range * std::cos(angle));
+    }
+  }
+  result_.nearest_m = static_cast<float>(nearest);
+  result_.stop = options_.stop_distance_m > 0 && (blind || nearest < options_.stop_distance_m);
+}
+
+}  // namespace stereod

@@ -1,0 +1,99 @@
+// A window on one channel: a picture for disparity rows and images, the fields with their charts for anything else.
+package stereod.spy;
+
+import java.awt.image.BufferedImage;
+import java.io.ByteArrayInputStream;
+import java.io.IOException;
+import java.util.Locale;
+import javax.imageio.ImageIO;
+import javax.swing.JFrame;
+import javax.swing.JScrollPane;
+import javax.swing.SwingUtilities;
+import lcm.lcm.LCM;
+import lcm.lcm.LCMDataInputStream;
+import lcm.lcm.LCMSubscriber;
+import lcm.spy.ChartData;
+import lcm.spy.ObjectPanel;
+import stereod.disparity_rows_t;
+import stereod.image_t;
+import stereod.status_t;
+
+class ChannelWindow implements LCMSubscriber {
+    private static final int GREY = 1497715271, MJPEG = 1196444237;
+    private static final int LARGEST_SIDE = 4096;
+
+    private final String channel;
+    private final JFrame window;
+    private final PicturePanel panel = new PicturePanel();
+    private ObjectPanel fields;
+    private final RowsPicture rows = new RowsPicture();
+    private long begin = System.nanoTime(), shown, total;
+
+    ChannelWindow(String channel, int x, int y) {
+        this.channel = channel;
+        window = new JFrame(channel);
+        window.setDefaultCloseOperation(JFrame.DISPOSE_ON_CLOSE);
+        if (channel.endsWith("_STATUS")) {
+            fields = new ObjectPanel(channel, new ChartData(System.currentTimeMillis() * 1000));
+            JScrollPane scroll = new JScrollPane(fields);
+            fields.setViewport(scroll.getViewport());
+            window.add(scroll);
+            window.setSize(660, 700);
+        } else {
+            window.add(panel);
+            window.pack();
+        }
+        window.setLocation(x, y);
+        window.setVisible(true);
+        LCM.getSingleton().subscribe(channel.replaceAll("[^A-Za-z0-9_]", "\\\\$0"), this);
+    }
+
+    @Override
+    public void messageReceived(LCM lcm, String name, LCMDataInputStream in) {
+        if (!window.isDisplayable()) {
+            lcm.unsubscribe(channel, this);
+            return;
+        }
+        try {
+            if (fields != null) {
+                status_t status = new status_t(in);
+                SwingUtilities.invokeLater(() -> fields.setObject(status, status.utime));
+            } else if (channel.endsWith("_DISPARITY")) {
+                show(rows.take(new disparity_rows_t(in)));
+            } else {
+                show(pictureOf(new image_t(in)));
+            }
+        } catch (IOException | RuntimeException | OutOfMemoryError error) {  // not a message of ours
+            rows.ignored++;
+        }
+    }
+
+    private void show(BufferedImage picture) {
+        if (picture == null) return;
+        shown++;
+        total++;
+        double seconds = (System.nanoTime() - begin) * 1e-9;
+        String text = window.getTitle().substring(Math.min(channel.length(), window.getTitle().length()));
+        if (seconds > 1) {
+            text = String.format(Locale.ROOT, " %dx%d %.1f frames/s %d rows lost", picture.getWidth(), picture.getHeight(),
+                                 shown / seconds, rows.rowsLost);
+            begin = System.nanoTime();
+            shown = 0;
+        }
+        String line = text;
+        SwingUtilities.invokeLater(() -> {
+            window.setTitle(channel + line);
+            panel.show(picture, line + "   " + total + " frames, " + rows.ignored + " messages ignored");
+        });
+    }
+
+    /** Grey or JPEG; null for anything else. */
+    static BufferedImage pictureOf(image_t m) throws IOException {
+        if (m.width <= 0 || m.width > LARGEST_SIDE || m.height <= 0 || m.height > LARGEST_SIDE) return null;
+        if (m.pixelformat == MJPEG) return ImageIO.read(new ByteArrayInputStream(m.data));
+        if (m.pixelformat != GREY || m.row_stride != m.width || m.data.length != m.width * m.height) return null;
+        BufferedImage picture = new BufferedImage(m.width, m.height, BufferedImage.TYPE_BYTE_GRAY);
+        picture.getRaster().setDataElements(0, 0, m.width, m.height, m.data);
+        return picture;
+    }
+}

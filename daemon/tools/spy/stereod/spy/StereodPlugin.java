@@ -1,0 +1,28 @@
+// What lcm-spy finds by itself: a right click on a channel with disparity rows or images offers a picture of it.
+package stereod.spy;
+
+import java.awt.event.ActionEvent;
+import javax.swing.AbstractAction;
+import javax.swing.Action;
+import javax.swing.JDesktopPane;
+import lcm.spy.ChannelData;
+import lcm.spy.SpyPlugin;
+import stereod.disparity_rows_t;
+import stereod.image_t;
+
+public class StereodPlugin implements SpyPlugin {
+    @Override
+    public boolean canHandle(long fingerprint) {
+        return fingerprint == disparity_rows_t.LCM_FINGERPRINT || fingerprint == image_t.LCM_FINGERPRINT;
+    }
+
+    @Override
+    public Action getAction(JDesktopPane desktop, ChannelData data) {
+        return new AbstractAction("Picture of " + data.name) {
+            @Override
+            public void actionPerformed(ActionEvent event) {
+                new ChannelWindow(data.name, 700, 40);
+            }
+        };
+    }
+}

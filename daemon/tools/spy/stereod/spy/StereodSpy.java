@@ -1,0 +1,13 @@
+// lcm-spy, with windows on the channels that the command line names.
+package stereod.spy;
+
+import javax.swing.SwingUtilities;
+
+public class StereodSpy {
+    public static void main(String[] channels) throws Exception {
+        lcm.spy.Spy.main(new String[0]);
+        SwingUtilities.invokeAndWait(() -> {
+            for (int i = 0; i < channels.length; i++) new ChannelWindow(channels[i], 660 * (i % 2), 380 + 40 * i);
+        });
+    }
+}

@@ -1,0 +1,33 @@
+// JSON, written.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stereod {
+
+/// One JSON object under construction. Names are plain; texts may be anything that came over the network.
+class JsonObject {
+ public:
+  JsonObject& add(std::string_view name, std::string_view text);
+  JsonObject& add(std::string_view name, const char* text) { return add(name, std::string_view(text)); }
+  JsonObject& add(std::string_view name, std::int64_t number);
+  JsonObject& add(std::string_view name, int number) { return add(name, std::int64_t{number}); }
+  JsonObject& add(std::string_view name, bool value) { return add_raw(name, value ? "true" : "false"); }
+  /// With as many digits as bring back the same number; null if it is not finite.
+  JsonObject& add(std::string_view name, double number);
+  JsonObject& add(std::string_view name, const std::vector<float>& numbers);
+  JsonObject& add(std::string_view name, const JsonObject& object) { return add_raw(name, object.text()); }
+  JsonObject& add_null(std::string_view name) { return add_raw(name, "null"); }
+
+  std::string text() const { return "{" + body_ + "}"; }
+
+ private:
+  JsonObject& add_raw(std::string_view name, std::string_view value);
+  std::string body_;
+};
+
+}  // namespace stereod

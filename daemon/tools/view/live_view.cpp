@@ -1,0 +1,82 @@
+#include "daemon/tools/view/live_view.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "daemon/imagefile/jpeg_encoder.h"
+#include "daemon/publish/wire_limits.h"
+
+namespace stereod {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int32_t kGrey = 1'497'715'271;
+constexpr std::int32_t kMjpeg = 1'196'444'237;
+constexpr std::chrono::seconds kQuiet{1};  // without frames for so long, the status alone is worth showing
+
+std::vector<std::uint8_t> jpeg_of(const image_t& image) {
+  const bool sane = image.width > 0 && image.width <= kLargestImageSide && image.height > 0 &&
+                    image.height <= kLargestImageSide;
+  if (!sane) return {};
+  if (image.pixelformat == kMjpeg) return image.data;
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  if (image.pixelformat != kGrey || image.row_stride != image.width || image.data.size() != pixels) return {};
+  JpegEncoder encoder({image.width, image.height}, 80);
+  const auto bytes = encoder.encode(GreyView(image.data.data(), image.width, image.height, image.row_stride));
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+void LiveView::take(StereoFrame&& frame, const ReceptionCounts& counts) {
+  const std::lock_guard lock(mutex_);
+  counts_ = counts;
+  frame_came_ = Clock::now();
+  publish_locked(std::move(frame));
+}
+
+void LiveView::take(planar_lidar_t&& scan) {
+  const std::lock_guard lock(mutex_);
+  scan_ = std::move(scan);
+}
+
+void LiveView::take(status_t&& status) {
+  const std::lock_guard lock(mutex_);
+  status_ = std::move(status);
+  status_came_ = Clock::now();
+  if (status_came_ - frame_came_ > kQuiet) publish_locked(std::nullopt);
+}
+
+void LiveView::take(const image_t& left) {
+  std::vector<std::uint8_t> jpeg = jpeg_of(left);
+  if (jpeg.empty()) return;
+  const std::lock_guard lock(mutex_);
+  left_jpeg_ = std::move(jpeg);
+  left_utime_ = left.utime;
+}
+
+void LiveView::publish_locked(std::optional<StereoFrame>&& frame) {
+  auto moment = std::make_shared<Moment>();
+  moment->number = ++number_;
+  moment->frame = std::move(frame);
+  moment->scan = scan_;
+  moment->status = status_;
+  moment->status_age_ms =
+      std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - status_came_).count();
+  moment->left_jpeg = left_jpeg_;
+  moment->left_utime = left_utime_;
+  moment->counts = counts_;
+  newest_ = std::move(moment);
+  changed_.notify_all();
+}
+
+std::shared_ptr<const Moment> LiveView::wait_newer(std::int64_t after,
+                                                   std::chrono::milliseconds patience) const {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, patience, [&] { return newest_ && newest_->number > after; });
+  return newest_;
+}
+
+}  // namespace stereod

@@ -1,0 +1,285 @@
+'use strict';
+// Fetches one moment after the other and shows it. The newest is `view.moment`; a person, and the tests, may look.
+const byId = id => document.getElementById(id);
+const view = { moment: null, values: null, paused: false, shown: 0, latency: [], skew: [], times: [] };
+const cloud = new Cloud(byId('cloud'));
+let leftImage = null;  // ImageData of the newest left image
+
+// Deep blue, violet, coral, pale yellow: far to near.
+const palette = (() => {
+  const stops = [[27, 20, 84], [98, 40, 140], [186, 66, 120], [240, 130, 90], [252, 240, 170]];
+  const colours = new Uint8Array(256 * 3);
+  for (let i = 0; i < 256; ++i) {
+    const at = i / 255 * (stops.length - 1), k = Math.min(Math.floor(at), stops.length - 2);
+    for (let j = 0; j < 3; ++j) colours[3 * i + j] = stops[k][j] + (at - k) * (stops[k + 1][j] - stops[k][j]);
+  }
+  return colours;
+})();
+
+const depthOf = (units, f) => {
+  const shift = units / f.units_per_pixel + f.camera.disparity_offset;
+  return shift > 0 ? f.camera.fx * f.camera.baseline_m / shift : Infinity;
+};
+
+async function inflated(bytes) {
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
+  return new Int16Array(await new Response(stream).arrayBuffer());
+}
+
+async function decode(buffer) {
+  const length = new DataView(buffer).getUint32(0, true);
+  const moment = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
+  const disparity = new Uint8Array(buffer, 4 + length, moment.disparity_bytes);
+  const left = new Uint8Array(buffer, 4 + length + moment.disparity_bytes, moment.left_bytes);
+  const values = moment.disparity_bytes ? await inflated(disparity) : null;
+  const picture = moment.left_bytes ? await createImageBitmap(new Blob([left], { type: 'image/jpeg' })) : null;
+  return { moment, values, picture };
+}
+
+function drawLeft(picture) {
+  byId('no-left').hidden = Boolean(picture);
+  if (!picture) return;
+  const canvas = byId('left');
+  if (canvas.width !== picture.width || canvas.height !== picture.height) {
+    canvas.width = picture.width;
+    canvas.height = picture.height;
+  }
+  const context = canvas.getContext('2d', { willReadFrequently: true });
+  context.drawImage(picture, 0, 0);
+  leftImage = context.getImageData(0, 0, picture.width, picture.height);
+}
+
+function drawDisparity(frame, values) {
+  const width = Math.ceil(frame.width / frame.step), height = Math.ceil(frame.height / frame.step);
+  const canvas = byId('disparity');
+  if (canvas.width !== width || canvas.height !== height) {
+    canvas.width = width;
+    canvas.height = height;
+  }
+  const least = frame.min_disparity * frame.units_per_pixel;
+  const range = Math.max(frame.disparities * frame.units_per_pixel - 1, 1);
+  const image = new ImageData(width, height);
+  for (let i = 0, o = 0; i < values.length; ++i, o += 4) {
+    const value = values[i];
+    if (value < 0) {
+      image.data[o] = image.data[o + 1] = image.data[o + 2] = 34;
+    } else {
+      const c = 3 * Math.min(255, Math.max(0, Math.round((value - least) / range * 255)));
+      image.data[o] = palette[c];
+      image.data[o + 1] = palette[c + 1];
+      image.data[o + 2] = palette[c + 2];
+    }
+    image.data[o + 3] = 255;
+  }
+  canvas.getContext('2d').putImageData(image, 0, 0);
+  const far = frame.min_disparity, near = frame.min_disparity + frame.disparities;
+  byId('scale').textContent = frame.camera
+    ? `${far} px (far) to ${near} px (${depthOf(near * frame.units_per_pixel, frame).toFixed(2)} m)`
+    : `${far} px (far) to ${near} px (near), no calibration`;
+}
+
+function drawCloud(frame, values) {
+  if (!frame.camera) return;
+  const k = Math.max(1, Math.round(2 / frame.step)), width = Math.ceil(frame.width / frame.step);
+  const height = Math.ceil(frame.height / frame.step);
+  const points = new Float32Array(3 * Math.ceil(width / k) * Math.ceil(height / k)), colours = new Float32Array(points.length);
+  const { fx, fy, cx, cy } = frame.camera;
+  let n = 0;
+  for (let y = 0; y < height; y += k) {
+    for (let x = 0; x < width; x += k) {
+      const value = values[y * width + x];
+      if (value < 0) continue;
+      const z = depthOf(value, frame);
+      if (!(z < 20)) continue;
+      const px = x * frame.step, py = y * frame.step;
+      points[n] = (px - cx) * z / fx;
+      points[n + 1] = (py - cy) * z / fy;
+      points[n + 2] = z;
+      const grey = leftImage && leftImage.width === frame.width ? leftImage.data[4 * (py * frame.width + px)] / 255 : 0.8;
+      colours[n] = grey;
+      colours[n + 1] = grey * 0.97;
+      colours[n + 2] = grey * 0.9;
+      n += 3;
+    }
+  }
+  cloud.show(points.subarray(0, n), colours.subarray(0, n));
+}
+
+function fillTable(id, rows) {
+  const table = byId(id);
+  table.replaceChildren(...rows.map(cells => {
+    const row = document.createElement('tr');
+    row.append(...cells.map((text, i) => {
+      const cell = document.createElement(i ? 'td' : 'th');
+      cell.textContent = text === '' || text === undefined || text === null ? '–' : text;
+      return cell;
+    }));
+    return row;
+  }));
+}
+
+const fixed = (value, digits) => value === undefined || value === null ? '–' : value.toFixed(digits);
+
+function showStatus(status, counts) {
+  if (!status) return;
+  const old = status.age_ms > 3000;
+  byId('state').textContent = old ? 'no status for ' + Math.round(status.age_ms / 1000) + ' s' : status.state;
+  byId('state').className = 'state ' + (old ? '' : status.state);
+  byId('reason').textContent = [status.reason, counts.problem].filter(Boolean).join(' ');
+  fillTable('daemon', [
+    ['matcher', status.matcher],
+    ['frames in, out', `${fixed(status.fps_in, 1)} /s, ${fixed(status.fps_out, 1)} /s`],
+    ['pairs made', status.pairs_made],
+    ['dropped: superseded', status.dropped_superseded],
+    ['dropped: no partner', status.dropped_no_partner],
+    ['dropped: clock went back', status.dropped_time_jump],
+    ['network refusals', status.publish_errors],
+    ['rows lost on the way here', `${counts.rows_lost} of ${counts.rows_expected}`],
+    ['matching, latency', `${fixed(status.match_ms_median, 2)} ms, ${fixed(status.latency_ms_median, 2)} ms (95 %: ${fixed(status.latency_ms_p95, 2)} ms)`],
+    ['CPU, memory', `${fixed(status.cpu_percent, 0)} %, ${fixed(status.rss_mb, 0)} MB`],
+    ['stereod', `${status.version}, up ${fixed(status.uptime_s, 0)} s`],
+  ]);
+  const both = (name, of) => [name, of(status.left), of(status.right)];
+  fillTable('cameras', [
+    both('camera', c => c.name), both('state', c => c.state), both('reason', c => c.reason),
+    both('device', c => c.connected || c.device), both('format', c => c.format),
+    both('frames', c => `${c.frames}, ${fixed(c.fps, 1)} /s`), both('brightness', c => fixed(c.brightness, 1)),
+    both('gaps, decode errors', c => `${c.sequence_gaps}, ${c.decode_errors}`),
+    both('incomplete, bad stamps', c => `${c.incomplete}, ${c.bad_stamps}`),
+    both('superseded, reconnects', c => `${c.superseded}, ${c.reconnects}`),
+    both('last fault', c => c.last_fault), both('note', c => c.note),
+  ]);
+}
+
+function remember(list, value) {
+  list.push(value);
+  if (list.length > 300) list.shift();
+}
+
+function showFrame(frame, values) {
+  drawDisparity(frame, values);
+  drawCloud(frame, values);
+  byId('frame').textContent = frame.frame + (frame.complete ? '' : ` (${frame.rows_received} of ${frame.rows_expected} rows)`);
+  remember(view.times, performance.now());
+  const recent = view.times.slice(-31);
+  if (recent.length > 1) byId('fps').textContent = (1000 * (recent.length - 1) / (recent[recent.length - 1] - recent[0])).toFixed(1);
+  const summary = frame.summary;
+  if (!summary) return;
+  remember(view.latency, summary.latency_us / 1000);
+  remember(view.skew, summary.skew_us / 1000);
+  byId('latency').textContent = (summary.latency_us / 1000).toFixed(2);
+  byId('skew').textContent = (summary.skew_us / 1000).toFixed(2);
+  const nearest = byId('nearest');
+  nearest.textContent = summary.nearest_m > 0 ? `${summary.stop ? 'STOP, ' : ''}${summary.nearest_m.toFixed(2)} m free ahead` : '';
+  nearest.className = summary.stop ? 'stop' : '';
+  if (view.shown % 5 === 0) {
+    drawHistogram(byId('latency-chart'), view.latency);
+    drawHistogram(byId('skew-chart'), view.skew);
+  }
+}
+
+// The disparity and depth that the newest frame has at a place of the full image; null outside.
+view.at = (x, y) => {
+  const frame = view.moment && view.moment.frame;
+  if (!frame || x < 0 || y < 0 || x >= frame.width || y >= frame.height) return null;
+  const width = Math.ceil(frame.width / frame.step);
+  const value = view.values[Math.floor(y / frame.step) * width + Math.floor(x / frame.step)];
+  return { value, disparity: value < 0 ? null : value / frame.units_per_pixel,
+           depth: value < 0 || !frame.camera ? null : depthOf(value, frame) };
+};
+
+for (const id of ['left', 'disparity']) {
+  byId(id).addEventListener('pointermove', event => {
+    const frame = view.moment && view.moment.frame;
+    if (!frame) return;
+    const box = event.target.getBoundingClientRect();
+    view.pointer = [Math.floor((event.clientX - box.left) / box.width * frame.width),
+                    Math.floor((event.clientY - box.top) / box.height * frame.height)];
+    showPointer();
+  });
+}
+
+function showPointer() {
+  const found = view.pointer && view.at(...view.pointer);
+  if (!found) return;
+  const where = `(${view.pointer[0]}, ${view.pointer[1]}): `;
+  byId('pointer').textContent = where + (found.disparity === null ? 'no disparity'
+    : `${found.disparity.toFixed(2)} px` + (found.depth === null ? '' : `, ${found.depth.toFixed(3)} m`));
+}
+
+function show({ moment, values, picture }) {
+  view.moment = moment;
+  view.values = values;
+  drawLeft(picture);
+  if (moment.frame) showFrame(moment.frame, values);
+  if (view.shown++ % 3 === 0 || !moment.frame) {
+    drawScan(byId('scan'), moment.scan);
+    showStatus(moment.status, moment.counts);
+  }
+  showPointer();
+}
+
+byId('pause').addEventListener('click', () => {
+  view.paused = !view.paused;
+  byId('pause').textContent = view.paused ? 'Go on' : 'Pause';
+});
+
+function download(name, blob) {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+// The disparities in px as PFM (infinite where there is none), as stereo-tap save writes them.
+view.pfm = () => {
+  const frame = view.moment.frame, width = Math.ceil(frame.width / frame.step), height = Math.ceil(frame.height / frame.step);
+  const head = new TextEncoder().encode(`Pf\n${width} ${height}\n-1\n`);
+  const body = new Float32Array(width * height);
+  for (let y = 0; y < height; ++y) {
+    for (let x = 0; x < width; ++x) {
+      const value = view.values[y * width + x];
+      body[(height - 1 - y) * width + x] = value < 0 ? Infinity : value / frame.units_per_pixel / frame.step;
+    }
+  }
+  return new Blob([head, body]);
+};
+
+byId('save').addEventListener('click', () => {
+  if (!view.moment || !view.moment.frame) return;
+  const name = 'frame-' + String(view.moment.frame.frame).padStart(6, '0');
+  download(name + '.pfm', view.pfm());
+  byId('disparity').toBlob(blob => download(name + '.png', blob));
+  if (leftImage) byId('left').toBlob(blob => download(name + '-left.png', blob));
+});
+
+const pause = ms => new Promise(done => setTimeout(done, ms));
+
+async function run() {
+  let after = 0;
+  for (;;) {
+    if (view.paused) {
+      await pause(100);
+      continue;
+    }
+    try {
+      const answer = await fetch(`moment?after=${after}&step=${byId('half').checked ? 2 : 1}`, { cache: 'no-store' });
+      if (answer.status === 205) after = 0;
+      if (answer.status !== 200) {
+        if (answer.status !== 204) await pause(500);
+        if (!view.moment) byId('state').textContent = 'nothing from stereod yet';
+        continue;
+      }
+      const decoded = await decode(await answer.arrayBuffer());
+      after = decoded.moment.number;
+      if (!view.paused) show(decoded);
+    } catch (error) {
+      byId('state').textContent = 'connection lost, trying again';
+      byId('state').className = 'state';
+      after = 0;
+      await pause(500);
+    }
+  }
+}
+run();

@@ -1,0 +1,44 @@
+#include "daemon/tools/view/view_feed.h"
+
+#include <span>
+#include <utility>
+
+#include "daemon/tools/tap/message_decoder.h"
+
+namespace stereod {
+namespace {
+
+StereoClient::Options client_options(const LcmReceiver& opened, const std::string& prefix) {
+  StereoClient::Options options;
+  options.url = opened.url();
+  options.prefix = prefix;
+  return options;
+}
+
+}  // namespace
+
+ViewFeed::ViewFeed(const std::string& lcm_url, const std::string& prefix, LiveView& view)
+    : others_(lcm_url), frames_(client_options(others_, prefix)) {
+  frames_.on_frame([this, &view](StereoFrame&& frame) { view.take(std::move(frame), frames_.counts()); });
+  others_.subscribe(prefix + "_STATUS", [&view](std::span<const std::byte> bytes) {
+    status_t status;
+    if (decode_message(bytes, status)) view.take(std::move(status));
+  });
+  others_.subscribe(prefix + "_SCAN", [&view](std::span<const std::byte> bytes) {
+    planar_lidar_t scan;
+    if (decode_message(bytes, scan)) view.take(std::move(scan));
+  });
+  others_.subscribe(prefix + "_LEFT", [&view](std::span<const std::byte> bytes) {
+    image_t image;
+    if (decode_message(bytes, image)) view.take(image);
+  });
+}
+
+void ViewFeed::run_once() {
+  constexpr int kMost = 100;  // messages, so that frames have their turn
+  for (int i = 0; i < kMost && others_.receive(std::chrono::milliseconds(0)); ++i) {
+  }
+  frames_.handle(20);
+}
+
+}  // namespace stereod

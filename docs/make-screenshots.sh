@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Makes the screenshots in docs/pictures anew, from build/release: stereo-view in headless Chromium, stereod-spy on a
+# virtual screen, and what stereo-tap prints. Wants the Debian packages chromium, xvfb, xdotool, imagemagick,
+# fonts-dejavu-core and those of stereod-spy, and some minutes in which the machine does little else.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+if [[ ${1:-} != --inside ]]; then exec toolchain/own-network.sh bash docs/make-screenshots.sh --inside; fi
+
+bin=build/release/bin
+work=$(mktemp -d)
+children=()
+clean_up() {
+  local child
+  for child in "${children[@]}"; do kill "$child" 2>/dev/null || true; done
+  wait 2>/dev/null || true
+  rm -rf "$work"
+}
+trap clean_up EXIT
+
+# At most 64 colours and 1000 px wide: for reading, not for looking at pixels.
+keep() { convert "$1" -resize '1000x>' -colors 64 -strip "PNG8:docs/pictures/$2"; }
+
+STEREO_SCREENSHOTS=$work $bin/test_view --gtest_filter='BrowserTest.ShowsWhatIsOnTheWire'
+keep "$work/stereo-view.png" stereo-view.png
+
+tests/spy/run.sh "$bin" build/release/share/stereod "$work/stereod-spy.png"
+keep "$work/stereod-spy.png" stereod-spy.png
+
+export LCM_DEFAULT_URL='udpm://239.255.76.67:17670?ttl=0'
+$bin/stereod --config etc/demo.yaml 2>/dev/null &
+children+=($!)
+sleep 10
+# The terminal's text, drawn: a terminal emulator cannot be had in a namespace of its own.
+status=$($bin/stereo-tap status --once | sed 's/\\/\\\\/g; s/%/%%/g')  # % is convert's own
+convert -size 760x640 xc:'#14171c' -fill '#e8ebef' -font DejaVu-Sans-Mono -pointsize 15 -annotate +14+26 "$status" \
+  "$work/stereo-tap.png"
+keep "$work/stereo-tap.png" stereo-tap.png

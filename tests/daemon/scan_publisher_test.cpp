@@ -1,0 +1,166 @@
+#include "daemon/pipeline/scan_publisher.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "daemon/pipeline/pipeline.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/support/floor_world.h"
+
+namespace stereod {
+namespace {
+
+/// Keeps scans and frames.
+class ScanBus final : public MessageBus {
+ public:
+  bool publish(const char* channel, const void* data, std::size_t size) noexcept override {
+    const std::lock_guard lock(mutex_);
+    const std::string name = channel;
+    if (name == "T_SCAN") keep(scans_, data, size);
+    if (name == "T_FRAME") keep(frames_, data, size);
+    return true;
+  }
+  std::vector<planar_lidar_t> scans() {
+    const std::lock_guard lock(mutex_);
+    return scans_;
+  }
+  std::vector<frame_t> frames() {
+    const std::lock_guard lock(mutex_);
+    return frames_;
+  }
+
+ private:
+  template <typename Message>
+  static void keep(std::vector<Message>& all, const void* data, std::size_t size) {
+    EXPECT_EQ(all.emplace_back().decode(data, 0, static_cast<int>(size)), static_cast<int>(size));
+  }
+  std::mutex mutex_;
+  std::vector<planar_lidar_t> scans_;
+  std::vector<frame_t> frames_;
+};
+
+const GroundPlane kGround{0.3, 0.1};
+const std::vector<Post> kPosts = {{0.4, 0, 0.1, 0, 0.4}, {1.5, -0.5, 0.1, 0, 0.6}};
+
+ScanConfig given_ground() {
+  ScanConfig config;
+  config.fit_ground = false;
+  config.ground = kGround;
+  return config;
+}
+
+frame_t publish(ScanPublisher& publisher, const DisparityImage& image, std::int64_t utime) {
+  frame_t frame{};
+  frame.utime = utime;
+  for (int y = 0; y < image.height(); ++y) publisher.add_row(y, image.row(y));
+  EXPECT_TRUE(publisher.finish(frame));
+  return frame;
+}
+
+TEST(ScanPublisher, PublishesWhatTheScanFinds) {
+  const ScanCamera camera = floor_camera();
+  const DisparityImage image = floor_disparity(camera, kGround, kPosts);
+  const ScanConfig config = given_ground();
+  ObstacleScan scan(config.options, camera, kGround);
+  const ScanResult expected = scan_of(scan, image);
+  ScanBus bus;
+  ScanPublisher publisher(bus, "T", config, camera);
+  const frame_t frame = publish(publisher, image, 77);
+  EXPECT_NEAR(frame.nearest_m, 0.4, 0.02);
+  EXPECT_EQ(frame.stop, 1);
+  ASSERT_EQ(bus.scans().size(), 1U);
+  const planar_lidar_t message = bus.scans()[0];
+  EXPECT_EQ(message.utime, 77);
+  EXPECT_EQ(message.ranges, expected.range_m);
+  EXPECT_EQ(message.intensities, expected.support);
+  EXPECT_EQ(message.rad0, expected.first_rad);
+  EXPECT_EQ(message.radstep, expected.step_rad);
+  EXPECT_EQ(publish(publisher, floor_disparity(camera, kGround, {}), 78).stop, 0);
+}
+
+TEST(ScanPublisher, SaysStopUntilItHasFoundTheGroundAndThenFollowsIt) {
+  const ScanCamera camera = floor_camera();
+  const DisparityImage image = floor_disparity(camera, kGround, {});
+  DisparityImage nothing(camera.size);
+  for (int y = 0; y < nothing.height(); ++y) std::fill_n(nothing.row(y), nothing.width(), kInvalidDisparity);
+  ScanBus bus;
+  ScanPublisher publisher(bus, "T", ScanConfig(), camera);
+  for (const DisparityImage* seen :
+       {static_cast<const DisparityImage*>(&nothing), &image}) {  // the first floor is only fitted to
+    const frame_t frame = publish(publisher, *seen, 0);
+    EXPECT_EQ(frame.stop, 1);
+    EXPECT_EQ(frame.nearest_m, 0.0F);
+    EXPECT_TRUE(bus.scans().empty());
+  }
+  const frame_t frame = publish(publisher, image, 0);
+  EXPECT_EQ(frame.stop, 0);
+  EXPECT_EQ(frame.nearest_m, 3.0F);
+  EXPECT_EQ(bus.scans().size(), 1U);
+  // The camera is tilted by 0.02 rad: what looks like a rising floor is the floor again after a while.
+  const DisparityImage tilted = floor_disparity(camera, {0.3, 0.12}, {});
+  for (int i = 0; i < 30 * 20; ++i) publish(publisher, tilted, 0);
+  ScanConfig config = given_ground();
+  config.ground = {0.3, 0.12};
+  ScanBus expected;
+  ScanPublisher knowing(expected, "T", config, camera);
+  publish(knowing, floor_disparity(camera, {0.3, 0.12}, kPosts), 0);
+  publish(publisher, floor_disparity(camera, {0.3, 0.12}, kPosts), 0);
+  const planar_lidar_t want = expected.scans().back(), got = bus.scans().back();
+  for (std::size_t i = 0; i < want.ranges.size(); ++i) EXPECT_NEAR(got.ranges[i], want.ranges[i], 0.03);
+}
+
+TEST(ScanPublisher, AllocatesNothing) {
+  class Nowhere final : public MessageBus {
+    bool publish(const char*, const void*, std::size_t) noexcept override { return true; }
+  };
+  if (!AllocationCounter::supported()) GTEST_SKIP() << "this build does not count allocations";
+  const ScanCamera camera = floor_camera();
+  const DisparityImage image = floor_disparity(camera, kGround, kPosts);
+  Nowhere bus;
+  ScanPublisher publisher(bus, "T", ScanConfig(), camera);
+  frame_t frame{};
+  const AllocationCounter counter;
+  for (int i = 0; i < 3; ++i) {
+    for (int y = 0; y < image.height(); ++y) publisher.add_row(y, image.row(y));
+    publisher.finish(frame);
+  }
+  EXPECT_EQ(counter.count(), 0U);
+}
+
+TEST(ScanPublisher, IsShownEveryFrameByThePipeline) {
+  Config config;
+  config.cameras.source = SourceKind::kSynthetic;
+  config.cameras.fps = 0;
+  config.cameras.width = 320;
+  config.cameras.height = 240;
+  config.lcm.prefix = "T";
+  config.lcm.spread = 0;
+  config.scan.enabled = true;
+  config.scan.fit_ground = false;
+  config.scan.ground = {0.45, 0};  // the scene's
+  config.scan.options.stop_distance_m = 0.8;
+  config.scan.options.stop_width_m = 0.8;
+  ScanBus bus;
+  {
+    Pipeline pipeline(config, open_rig(config), bus);
+    while (bus.frames().size() < 8) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  const std::vector<planar_lidar_t> scans = bus.scans();
+  const std::vector<frame_t> frames = bus.frames();
+  ASSERT_GE(scans.size(), frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_EQ(scans[i].utime, frames[i].utime);
+    EXPECT_EQ(scans[i].nranges, config.scan.options.rays);
+    // A box moves to and fro in front of the camera, 0.6 m away.
+    EXPECT_NEAR(frames[i].nearest_m, 0.6, 0.1);
+    EXPECT_EQ(frames[i].stop, 1);
+  }
+}
+
+}  // namespace
+}  // namespace stereod

@@ -1,0 +1,162 @@
+// The client library with a stereod in another process, and the examples that use it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/depth.h"
+#include "daemon/client/stereod_client.h"
+#include "daemon/config/calibration_file.h"
+#include "daemon/publish/lcm_bus.h"
+#include "tests/support/network.h"
+#include "tests/support/random_images.h"
+#include "tests/support/recorded_pairs.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_directory.h"
+
+namespace stereod {
+namespace {
+
+constexpr Size kSize{320, 240};
+constexpr const char* kUrl = "udpm://239.255.76.67:17667?ttl=0";  // a port of the tests' own
+const std::filesystem::path kBin = STEREOD_BIN_DIR;
+
+class ClientE2e : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
+    write_recorded_pairs(directory_.path(), kSize, 2);
+    std::ofstream(config_) << "cameras: {source: replay, fps: 20, replay: {folder: .}}\n"
+                           << "calibration: calibration.yaml\n"
+                           << "lcm: {url: \"" << kUrl << "\", prefix: CLIENT}\n";
+    options_.url = kUrl;
+    options_.prefix = "CLIENT";
+  }
+
+  ChildProgram start_stereod() {
+    return {kBin / "stereod", {"--config", config_.string()}, directory_.path()};
+  }
+
+  /// Handles messages until something is so; false if it is not within a minute.
+  static bool handle_until(StereoClient& client, const std::function<bool()>& is_so) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!is_so() && std::chrono::steady_clock::now() < deadline) client.handle(100);
+    return is_so();
+  }
+
+  TemporaryDirectory directory_;
+  const std::filesystem::path config_ = directory_ / "stereod.yaml";
+  StereoClient::Options options_;
+};
+
+TEST_F(ClientE2e, GivesDepthAsTheCalibrationSays) {
+  const Calibration calibration = read_calibration(directory_ / "calibration.yaml");
+  StereoClient client(options_);
+  int frames = 0, pixels = 0;
+  client.on_frame([&](StereoFrame&& frame) {
+    if (!frame.camera || !frame.complete()) return;
+    ++frames;
+    ASSERT_EQ(frame.disparity.width(), kSize.width);
+    ASSERT_EQ(frame.disparity.height(), kSize.height);
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        const float px = frame.disparity_px(x, y);
+        if (std::isnan(px)) continue;
+        ++pixels;
+        const double depth = depth_m(calibration, static_cast<double>(px));
+        ASSERT_FLOAT_EQ(frame.depth_m(x, y), static_cast<float>(depth));
+        const StereoPoint point = frame.point(x, y);
+        const RectifiedProjection& p = calibration.left.projection;
+        ASSERT_NEAR(static_cast<double>(point.x) * p.fx / depth + p.cx, x, 1e-3);
+        ASSERT_NEAR(static_cast<double>(point.y) * p.fy / depth + p.cy, y, 1e-3);
+      }
+    }
+  });
+  ChildProgram stereod = start_stereod();
+  EXPECT_TRUE(handle_until(client, [&] { return frames >= 5 || HasFailure(); }));
+  EXPECT_GT(pixels, 5 * kSize.width * kSize.height / 3);
+  EXPECT_EQ(client.counts().messages_ignored, 0);
+  EXPECT_EQ(problem_in_words(client.counts()), "");
+}
+
+// The consumer needs 0.2 s for a frame, the stream brings 20 a second.
+TEST_F(ClientE2e, GivesASlowConsumerTheNewestFrames) {
+  StereoClient client(options_);
+  std::vector<std::int64_t> numbers;
+  client.on_frame([&](StereoFrame&& frame) {
+    numbers.push_back(frame.frame);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  });
+  ChildProgram stereod = start_stereod();
+  ASSERT_TRUE(handle_until(client, [&] { return numbers.size() >= 8; }));
+  EXPECT_GT(client.frames_skipped(), 0);
+  for (std::size_t i = 1; i < numbers.size(); ++i) EXPECT_GT(numbers[i], numbers[i - 1]);
+  EXPECT_GE(numbers.back() - numbers.front(), 8);
+}
+
+TEST_F(ClientE2e, CarriesOnAmongRubbishAndSaysSo) {
+  LcmBus bus(kUrl);
+  Random random(3);
+  StereoClient client(options_);
+  int frames = 0;
+  client.on_frame([&](StereoFrame&& frame) { frames += frame.complete() ? 1 : 0; });
+  ChildProgram stereod = start_stereod();
+  const bool arrived = handle_until(client, [&] {
+    std::vector<std::uint8_t> rubbish(static_cast<std::size_t>(random.between(0, 2000)));
+    for (std::uint8_t& byte : rubbish) byte = static_cast<std::uint8_t>(random.between(0, 255));
+    for (const char* channel : {"CLIENT_DISPARITY", "CLIENT_FRAME", "CLIENT_CAMERA_INFO"}) {
+      bus.publish(channel, rubbish.data(), rubbish.size());
+    }
+    return frames >= 10;
+  });
+  EXPECT_TRUE(arrived);
+  EXPECT_GT(client.counts().messages_ignored, 10);
+  EXPECT_THAT(problem_in_words(client.counts()), testing::HasSubstr("were no messages of this stereod"));
+}
+
+TEST_F(ClientE2e, TellsOfTwoDaemonsOnOneChannel) {
+  StereoClient client(options_);
+  int frames = 0;
+  client.on_frame([&](StereoFrame&&) { ++frames; });
+  ChildProgram first = start_stereod();
+  ASSERT_TRUE(handle_until(client, [&] { return frames >= 3; }));
+  ASSERT_EQ(problem_in_words(client.counts()), "");
+  ChildProgram second = start_stereod();
+  EXPECT_TRUE(handle_until(client, [&] { return !problem_in_words(client.counts()).empty(); }));
+  const int before = frames;
+  EXPECT_TRUE(handle_until(client, [&] { return frames > before + 5; }));
+}
+
+TEST_F(ClientE2e, ThrowsWhatAHandlerThrows) {
+  StereoClient client(options_);
+  client.on_rows([](const RowBlock&) { throw std::runtime_error("enough"); });
+  ChildProgram stereod = start_stereod();
+  EXPECT_THROW(handle_until(client, [] { return false; }), std::runtime_error);
+}
+
+TEST_F(ClientE2e, TheExamplesDoWhatTheySay) {
+  ::setenv("LCM_DEFAULT_URL", kUrl, 1);
+  ChildProgram stereod = start_stereod();
+  const ProgramRun points = run_program(kBin / "example_nearest_point", {"3", "CLIENT"}, directory_.path());
+  const ProgramRun rows = run_program(kBin / "example_first_rows", {"20", "CLIENT"}, directory_.path());
+  ::unsetenv("LCM_DEFAULT_URL");
+  EXPECT_EQ(points.status, 0) << points.err;
+  EXPECT_EQ(points.err, "");
+  EXPECT_THAT(points.out,
+              testing::ContainsRegex(
+                  "^frame [0-9]+: nearest at x -?[0-9]\\.[0-9]+ y -?[0-9]\\.[0-9]+ z [0-9]\\.[0-9]+ m\n"));
+  EXPECT_GE(std::count(points.out.begin(), points.out.end(), '\n'), 3);
+  EXPECT_EQ(rows.status, 0) << rows.err;
+  EXPECT_THAT(rows.out, testing::ContainsRegex("frame [0-9]+ rows 0 to 15: [0-9]+ of 5120 pixels"));
+}
+
+}  // namespace
+}  // namespace stereod

@@ -1,0 +1,66 @@
+// Any bytes as messages on the client library's three channels: each message is a byte that chooses the
+// channel, two bytes for its length, then that many bytes. Whatever is handed over is read to its last pixel.
+// Built with clang and -fsanitize=fuzzer this is a fuzzer; else client_by_mutation.cpp drives it, as a test.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "daemon/client/stereod_client.h"
+#include "tests/fuzz/client_fuzz.h"
+
+namespace stereod {
+
+int frames_of_last_input = 0;
+
+namespace {
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+void read(const StereoFrame& frame) {
+  const int width = frame.disparity.width(), height = frame.disparity.height();
+  require(static_cast<int>(frame.row_present.size()) == height && frame.rows_received <= frame.rows_expected);
+  require(frame.depths_m().size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (const StereoPoint& point : frame.points()) require(std::isfinite(point.z));
+}
+
+void read(const RowBlock& block) {
+  const disparity_rows_t& m = block.message();
+  std::vector<std::int16_t> row(static_cast<std::size_t>(m.width));
+  for (int y = m.first_row; y < m.first_row + m.row_count; ++y) {
+    block.copy_row(y, row.data());
+    for (const std::int16_t value : row) require(value >= DisparityMap::kNone);
+  }
+}
+
+void run(const std::uint8_t* data, std::size_t size) {
+  const auto client = StereoClient::unconnected();
+  frames_of_last_input = 0;
+  client->on_frame([](StereoFrame&& frame) {
+    read(frame);
+    ++frames_of_last_input;
+  });
+  client->on_rows([](const RowBlock& block) { read(block); });
+  while (size >= 3) {
+    const int channel = data[0] % 3;
+    const std::size_t length = std::min<std::size_t>(size - 3, data[1] | data[2] << 8);
+    // A copy of its own, so that a read past its end is seen.
+    const std::vector<std::uint8_t> message(data + 3, data + 3 + length);
+    if (channel == 0) client->take_rows(message.data(), message.size());
+    if (channel == 1) client->take_frame(message.data(), message.size());
+    if (channel == 2) client->take_camera_info(message.data(), message.size());
+    data += 3 + length;
+    size -= 3 + length;
+  }
+  problem_in_words(client->counts());
+}
+
+}  // namespace
+}  // namespace stereod
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  stereod::run(data, size);
+  return 0;
+}

@@ -1,0 +1,151 @@
+#include "daemon/tools/view/live_view.h"
+
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <cstring>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "daemon/imagefile/jpeg_codec.h"
+#include "tests/support/frame_messages.h"
+
+namespace stereod {
+namespace {
+
+using namespace std::chrono_literals;
+
+StereoFrame frame_of(std::int64_t number) {
+  StereoFrame result;
+  FrameAssembler assembler([&](StereoFrame&& frame) { result = std::move(frame); });
+  for (int y = 0; y < kHeight; y += kRowsPerMessage) assembler.take(rows_of(number, y));
+  assembler.take(summary_of(number));
+  result.camera = geometry_of(camera_info_of());
+  return result;
+}
+
+/// What the page takes apart again.
+struct Decoded {
+  YAML::Node json;  // JSON is YAML
+  std::vector<std::int16_t> disparity;
+  std::string left;
+};
+
+Decoded decoded(const std::string& bytes) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data(), 4);
+  Decoded result{YAML::Load(bytes.substr(4, length)), {}, {}};
+  const std::string compressed = bytes.substr(4 + length, result.json["disparity_bytes"].as<std::size_t>());
+  result.left = bytes.substr(4 + length + compressed.size());
+  std::vector<std::int16_t> room(100'000);
+  uLongf size = room.size() * 2;
+  if (compressed.empty()) return result;
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(room.data()), &size,
+                       reinterpret_cast<const Bytef*>(compressed.data()), compressed.size()),
+            Z_OK);
+  room.resize(size / 2);
+  result.disparity = room;
+  return result;
+}
+
+TEST(LiveView, GivesAFrameAndWhatBelongsToIt) {
+  LiveView view;
+  EXPECT_EQ(view.wait_newer(0, 0ms), nullptr);
+  status_t status{};
+  status.state = "stre\"am\ning\x1b[2J";  // whatever the network sends
+  status.pairs_made = 12;
+  status.cpu_percent = NAN;
+  view.take(std::move(status));
+  planar_lidar_t scan{};
+  scan.ranges = {1.5F, 0.0F};
+  scan.intensities = {70, 0};
+  view.take(std::move(scan));
+  ReceptionCounts counts;
+  counts.rows_lost = 3;
+  view.take(frame_of(7), counts);
+  const auto moment = view.wait_newer(0, 0ms);
+  ASSERT_TRUE(moment && moment->frame);
+  const Decoded got = decoded(encoded_moment(*moment, 1));
+  EXPECT_EQ(got.json["frame"]["frame"].as<int>(), 7);
+  EXPECT_EQ(got.json["frame"]["units_per_pixel"].as<int>(), 16);
+  EXPECT_EQ(got.json["frame"]["camera"]["fx"].as<double>(), 500);
+  EXPECT_EQ(got.json["frame"]["summary"]["valid_fraction"].as<double>(), 0.5);
+  EXPECT_EQ(got.json["status"]["state"].as<std::string>(), "stre\"am?ing?[2J");
+  EXPECT_EQ(got.json["status"]["pairs_made"].as<int>(), 12);
+  EXPECT_TRUE(got.json["status"]["cpu_percent"].IsNull());
+  EXPECT_EQ(got.json["scan"]["ranges"][0].as<double>(), 1.5);
+  EXPECT_EQ(got.json["counts"]["rows_lost"].as<int>(), 3);
+  ASSERT_EQ(got.disparity.size(), static_cast<std::size_t>(kWidth * kHeight));
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      EXPECT_EQ(got.disparity[static_cast<std::size_t>(y * kWidth + x)], moment->frame->disparity.at(x, y));
+    }
+  }
+  const Decoded half = decoded(encoded_moment(*moment, 2));
+  ASSERT_EQ(half.disparity.size(), static_cast<std::size_t>(kWidth * kHeight / 4));
+  EXPECT_EQ(half.disparity[7], moment->frame->disparity.at(2, 2));
+}
+
+TEST(LiveView, WaitsForSomethingNew) {
+  LiveView view;
+  view.take(frame_of(1), {});
+  const std::int64_t first = view.wait_newer(0, 10s)->number;
+  EXPECT_EQ(view.wait_newer(first, 1ms)->number, first);  // nothing new in time: the old one
+  std::thread later([&] { view.take(frame_of(2), {}); });
+  EXPECT_EQ(view.wait_newer(first, 60s)->frame->frame, 2);
+  later.join();
+}
+
+TEST(LiveView, ShowsAStatusWhenThereAreNoFrames) {
+  LiveView view;
+  status_t status{};
+  status.state = "waiting_for_cameras";
+  view.take(std::move(status));
+  const auto moment = view.wait_newer(0, 0ms);
+  ASSERT_TRUE(moment);
+  const Decoded got = decoded(encoded_moment(*moment, 1));
+  EXPECT_EQ(got.json["status"]["state"].as<std::string>(), "waiting_for_cameras");
+  EXPECT_FALSE(got.json["frame"]);
+}
+
+image_t grey_image(int width, int height) {
+  image_t image{};
+  image.width = image.row_stride = width;
+  image.height = height;
+  image.pixelformat = 1497715271;
+  image.size = width * height;
+  image.data.assign(static_cast<std::size_t>(image.size), 90);
+  return image;
+}
+
+TEST(LiveView, TakesTheLeftImageGreyOrAsJpeg) {
+  LiveView view;
+  const auto left_of = [&](const image_t& image) {
+    view.take(image);
+    view.take(frame_of(1), {});
+    return view.wait_newer(0, 0ms)->left_jpeg;
+  };
+  const auto jpeg = left_of(grey_image(64, 48));
+  ASSERT_GT(jpeg.size(), 100U);
+  const DecodedPicture picture = decode_jpeg("left", jpeg, JpegChannels::kLuma);
+  image_t sent = grey_image(64, 48);
+  sent.pixelformat = 1196444237;
+  sent.row_stride = 0;
+  sent.data = {0xFF, 0xD8, 1, 2};
+  EXPECT_EQ(left_of(sent), sent.data);
+  image_t bad = grey_image(64, 48);
+  bad.data.pop_back();
+  EXPECT_EQ(left_of(bad), sent.data);  // passed over: the one before stays
+  bad = grey_image(64, 48);
+  bad.width = bad.row_stride = 1 << 20;
+  EXPECT_EQ(left_of(bad), sent.data);
+  bad = grey_image(64, 48);
+  bad.pixelformat = 3;
+  EXPECT_EQ(left_of(bad), sent.data);
+}
+
+}  // namespace
+}  // namespace stereod
