@@ -68,15 +68,15 @@ class Truth {
 };
 
 // One frame as the running daemon publishes it.
-AssembledFrame published_frame(const Calibration& calibration, const TemporaryDirectory& folder) {
+StereoFrame published_frame(const Calibration& calibration, const TemporaryDirectory& folder) {
   constexpr const char* kUrl = "udpm://239.255.76.67:17668?ttl=0";  // a port of this test's own
   write_calibration(folder / "found.yaml", calibration);
   write_text_file(folder / "config.yaml",
                   "cameras: {source: synthetic, fps: 5}\ncalibration: found.yaml\n"
                   "matcher: {preset: robust, disparities: 96}\nlcm: {url: \"" +
                       std::string(kUrl) + "\", prefix: DEPTH}\n");
-  std::optional<AssembledFrame> whole;
-  FrameAssembler assembler([&](AssembledFrame&& frame) {
+  std::optional<StereoFrame> whole;
+  FrameAssembler assembler([&](StereoFrame&& frame) {
     if (!whole && frame.complete()) whole = std::move(frame);
   });
   LcmReceiver receiver(kUrl);
@@ -113,8 +113,8 @@ TEST(Depth, OfTheDaemonIsAsExactAsTheReportPredicts) {
   ASSERT_TRUE(result.matched_error_px.has_value());
 
   const TemporaryDirectory folder;
-  const AssembledFrame frame = published_frame(found, folder);
-  const DisparityImage& disparity = frame.disparity;
+  const StereoFrame frame = published_frame(found, folder);
+  const DisparityMap& disparity = frame.disparity;
   const Truth truth(scene, found, static_cast<int>(frame.summary->left_sequence));
   struct Range {
     double nearest, farthest;

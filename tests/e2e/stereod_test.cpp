@@ -18,7 +18,6 @@
 #include "daemon/imagefile/pfm_file.h"
 #include "daemon/imagefile/read_image.h"
 #include "daemon/imagefile/write_image.h"
-#include "daemon/tools/tap/frame_assembler.h"
 #include "daemon/tools/tap/frame_listener.h"
 #include "daemon/tools/tap/lcm_receiver.h"
 #include "daemon/tools/tap/message_decoder.h"
