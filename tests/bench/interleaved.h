@@ -72,8 +72,9 @@ class InterleavedRun {
     contestants_.push_back({name, std::move(work), std::max(1, at_most)});
   }
 
-  /// Gives every contestant a turn a round. A turn is as many calls as fit into 30 ms, so that the first one, whose memory the one before has driven out of the caches, weighs little; one call
-  /// before the first round warms up and tells how many that are.
+  /// Gives every contestant a turn a round. A turn is as many calls as fit into 30 ms, so that the first one,
+  /// whose memory the one before has driven out of the caches, weighs little; one call before the first round
+  /// warms up and tells how many that are.
   InterleavedResults run(int rounds) const {
     InterleavedResults results;
     std::map<std::string, int> calls;
