@@ -26,6 +26,12 @@ install(FILES ${PROJECT_SOURCE_DIR}/etc/demo.yaml
 install(FILES ${PROJECT_SOURCE_DIR}/systemd/examples/realtime.conf
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/stereod/examples COMPONENT stereod)
 
+if(TARGET stereod-spy)
+  install(PROGRAMS ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/stereod-spy DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT stereod)
+  install(FILES ${CMAKE_BINARY_DIR}/share/stereod/stereod-spy.jar
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/stereod COMPONENT stereod)
+endif()
+
 # --- stereo-calibrate
 if(TARGET stereo-calibrate)
   install(TARGETS stereo-calibrate RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT stereo-calibrate)
@@ -33,6 +39,9 @@ endif()
 
 # --- libstereod-dev
 get_target_property(lcm_header_dir stereod_lcmtypes STEREOD_GENERATED_DIR)
+install(TARGETS stereod_client ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libstereod-dev)
+install(FILES ${PROJECT_SOURCE_DIR}/daemon/client/stereod_client.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stereod COMPONENT libstereod-dev)
 install(DIRECTORY ${lcm_header_dir}/stereod DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libstereod-dev
   FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/daemon/lcmtypes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lcmtypes
@@ -40,11 +49,11 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/daemon/lcmtypes/ DESTINATION ${CMAKE_INS
 include(CMakePackageConfigHelpers)
 configure_file(${package_dir}/libstereod-dev/stereod.pc.in ${CMAKE_BINARY_DIR}/package/stereod.pc @ONLY)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/package/stereodConfigVersion.cmake
-  COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+  COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/package/stereod.pc
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/pkgconfig COMPONENT libstereod-dev)
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT libstereod-dev)
 install(FILES ${package_dir}/libstereod-dev/stereodConfig.cmake ${CMAKE_BINARY_DIR}/package/stereodConfigVersion.cmake
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/cmake/stereod COMPONENT libstereod-dev)
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/stereod COMPONENT libstereod-dev)
 
 # --- what every package has: manual pages, licence, changes
 find_program(GZIP gzip REQUIRED)
@@ -66,7 +75,14 @@ if(TARGET stereo-calibrate)
   list(APPEND components stereo-calibrate)
   install_manual(stereo-calibrate.1 stereo-calibrate)
 endif()
-foreach(page stereod.8 stereo-match.1 stereo-tap.1)
+set(pages stereod.8 stereo-match.1 stereo-tap.1)
+if(TARGET stereo-view)
+  list(APPEND pages stereo-view.1)
+endif()
+if(TARGET stereod-spy)
+  list(APPEND pages stereod-spy.1)
+endif()
+foreach(page IN LISTS pages)
   install_manual(${page} stereod)
 endforeach()
 # The page about the configuration is the commented configuration itself.
@@ -122,12 +138,13 @@ endif()
 set(CPACK_DEBIAN_STEREOD_PACKAGE_NAME stereod)
 set(CPACK_DEBIAN_STEREOD_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_STEREOD_PACKAGE_DEPENDS "systemd (>= 252) | systemd-standalone-sysusers, udev, iproute2")
-set(CPACK_DEBIAN_STEREOD_PACKAGE_SUGGESTS "stereo-calibrate, liblcm-bin, liblcm-java")
+set(CPACK_DEBIAN_STEREOD_PACKAGE_SUGGESTS "stereo-calibrate, liblcm-bin, liblcm-java, libjchart2d-java, default-jre")
 set(CPACK_COMPONENT_STEREOD_DESCRIPTION "stereo vision daemon for robot boards
 Reads two webcams, rectifies their pictures with a lookup table, matches them
 with a threaded SIMD block matcher and publishes rows of disparity over LCM to
 the other processes of the robot. With the tools stereo-tap (watch, save and
-check what is published) and stereo-match (the same matcher on two files).")
+check what is published), stereo-view (a live page), stereod-spy (LCM's spy)
+and stereo-match (the same matcher on two files).")
 set(CPACK_DEBIAN_STEREOD_PACKAGE_CONTROL_EXTRA
   ${package_dir}/stereod/conffiles ${package_dir}/stereod/postinst ${package_dir}/stereod/prerm
   ${package_dir}/stereod/postrm)
@@ -145,6 +162,7 @@ set(CPACK_DEBIAN_LIBSTEREOD-DEV_PACKAGE_NAME libstereod-dev)
 set(CPACK_DEBIAN_LIBSTEREOD-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBSTEREOD-DEV_PACKAGE_DEPENDS liblcm-dev)
 set(CPACK_COMPONENT_LIBSTEREOD-DEV_DESCRIPTION "development files for receivers of stereod's messages
-The LCM types of stereod's messages, the C++ classes made of them, and what
-CMake (find_package(stereod)) and pkg-config need to find them.")
+A client library that makes frames, depth and points of stereod's messages,
+the LCM types of the messages and the C++ classes made of them, and what CMake
+(find_package(stereod)) and pkg-config need to find them.")
 include(CPack)
