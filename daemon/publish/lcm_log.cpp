@@ -48,7 +48,7 @@ bool LcmLogReader::next(LogEvent& event) {
       event.channel.resize(channel);
       event.data.resize(data);
       if (std::fread(event.channel.data(), 1, channel, file_.get()) == channel &&
-          std::fread(event.data.data(), 1, data, file_.get()) == data) {
+          (data == 0 || std::fread(event.data.data(), 1, data, file_.get()) == data)) {
         return true;
       }
     }
@@ -101,7 +101,7 @@ void LcmLogWriter::write(std::int64_t utime, std::string_view channel, std::span
   put_big_endian(&head[24], 4, data.size());
   const bool written = std::fwrite(head.data(), 1, head.size(), file_.get()) == head.size() &&
                        std::fwrite(channel.data(), 1, channel.size(), file_.get()) == channel.size() &&
-                       std::fwrite(data.data(), 1, data.size(), file_.get()) == data.size();
+                       (data.empty() || std::fwrite(data.data(), 1, data.size(), file_.get()) == data.size());
   if (!written) fail();
 }
 
