@@ -84,6 +84,8 @@ class AirBus final : public MessageBus {
 
 class ServiceTest : public testing::Test {
  protected:
+  // As the daemon does, so that the logger is not first made by whichever thread has something to say.
+  void SetUp() override { set_up_log("info"); }
   void write(const std::string& text) { std::ofstream(file_) << text; }
   std::unique_ptr<Service> start(const std::string& text) {
     write(text);
