@@ -1,7 +1,7 @@
 // libstereod-client: what another program needs to use what stereod publishes. C++17; this header, its source
 // and the classes that lcm-gen makes of the .lcm files are all of it.
 //
-//   stereod::StereoClient client({});
+//   stereod::StereoClient client(stereod::StereoClient::Options{});
 //   client.on_frame([](stereod::StereoFrame&& frame) { use(frame.depth_m(320, 240)); });
 //   while (true) client.handle(100);
 //
