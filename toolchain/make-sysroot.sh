@@ -26,11 +26,10 @@ command -v mmdebstrap >/dev/null || die "no mmdebstrap here: apt install mmdebst
 packages=libc6-dev,libstdc++-12-dev,liblcm-dev,libv4l-dev,libyaml-cpp-dev,libspdlog-dev,libcli11-dev
 packages+=,libturbojpeg0-dev,libpng-dev,libsystemd-dev,libgtest-dev,libgmock-dev,libcpp-httplib-dev
 
-# Debian's own sources only: others need not have the architecture, nor may their packages get in.
+# Only sources that name Debian 12 itself as a suite: others need not have the architecture, nor may their packages get in.
 sources=()
 for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/sources.list.d/*.list; do
-  if [[ -s $file ]] && grep -q 'bookworm' "$file" && grep -qE '^(deb|Suites:).*bookworm( |$|-)' "$file" &&
-    grep -q 'main' "$file" && grep -qiE 'debian' "$file" && ! grep -qiE 'cloud|nodistro' "$file"; then
+  if [[ -s $file ]] && grep -qE '^(deb|Suites:)(.*[[:space:]])bookworm([[:space:]-]|$)' "$file"; then
     sources+=("$file")
   fi
 done

@@ -44,6 +44,7 @@ void AlignmentMonitor::frame_matched(const ProbedFrame& left, const ProbedFrame&
 
 AlignmentFigures AlignmentMonitor::figures() const {
   std::vector<Point> newest;
+  newest.reserve(kPoints);  // not while the matching thread may wait
   AlignmentFigures figures;
   {
     const std::lock_guard lock(mutex_);
