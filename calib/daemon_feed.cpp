@@ -1,5 +1,7 @@
 #include "calib/daemon_feed.h"
 
+#include "daemon/publish/pixel_format_codes.h"
+
 #include <algorithm>
 #include <stereod/image_t.hpp>
 
@@ -8,13 +10,12 @@ namespace stereod {
 namespace {
 
 constexpr std::int64_t kTolerance_ns = 50'000'000;  // both are of one pair, which the daemon has made
-constexpr std::int32_t kGrey = 1497715271;          // bot_core's 8-bit grey
 constexpr std::int32_t kWidest = 16384;
 
 // Whether the picture's numbers fit its data.
 bool is_sound(const image_t& image) {
-  return image.pixelformat == kGrey && image.width > 0 && image.width <= kWidest && image.height > 0 &&
-         image.height <= kWidest && image.row_stride >= image.width &&
+  return image.pixelformat == kPixelFormatGrey && image.width > 0 && image.width <= kWidest &&
+         image.height > 0 && image.height <= kWidest && image.row_stride >= image.width &&
          image.data.size() >=
              static_cast<std::size_t>(image.height - 1) * static_cast<std::size_t>(image.row_stride) +
                  static_cast<std::size_t>(image.width);

@@ -15,13 +15,13 @@
 #include "daemon/config/file_error.h"
 #include "daemon/publish/lcm_handle.h"
 #include "daemon/publish/lcm_log.h"
+#include "daemon/publish/pixel_format_codes.h"
 #include "daemon/publish/wire_limits.h"
 #include "stereod/image_t.hpp"
 
 namespace stereod {
 namespace {
 
-constexpr std::int32_t kGrey = 1'497'715'271;
 constexpr std::int64_t kFarthestPartner = 500'000;  // µs between the exposures of a pair
 constexpr std::size_t kMostBytes = std::size_t{4} << 30;
 constexpr std::size_t kFields = 48;  // bytes of an image_t besides its data
@@ -46,8 +46,9 @@ std::optional<LoggedImage> image_of(const std::vector<std::byte>& data) {
   image_t m;
   if (m.decode(data.data(), 0, static_cast<int>(data.size())) != static_cast<int>(data.size()))
     return std::nullopt;
-  const bool sane = m.pixelformat == kGrey && m.width > 0 && m.width <= kLargestImageSide && m.height > 0 &&
-                    m.height <= kLargestImageSide && m.row_stride == m.width && m.size == m.width * m.height;
+  const bool sane = m.pixelformat == kPixelFormatGrey && m.width > 0 && m.width <= kLargestImageSide &&
+                    m.height > 0 && m.height <= kLargestImageSide && m.row_stride == m.width &&
+                    m.size == m.width * m.height;
   if (!sane) return std::nullopt;
   LoggedImage image{m.utime, GreyImage(m.width, m.height)};
   for (int y = 0; y < m.height; ++y) {

@@ -3,15 +3,14 @@
 #include <algorithm>
 
 #include "daemon/pipeline/clocks.h"
+#include "daemon/publish/pixel_format_codes.h"
 
 namespace stereod {
 namespace {
 
-constexpr std::int32_t kGrey = 1'497'715'271;   // bot_core.image_t's PIXEL_FORMAT_GRAY
-constexpr std::int32_t kMjpeg = 1'196'444'237;  // bot_core.image_t's PIXEL_FORMAT_MJPEG
-constexpr int kQuality = 80;                    // 640×480 pixels take 30 to 60 KB
-constexpr std::size_t kHeader = 128;            // the message's other fields
-constexpr std::size_t kJpegHeader = 2048;       // a JPEG may be so much longer than its picture
+constexpr int kQuality = 80;               // 640×480 pixels take 30 to 60 KB
+constexpr std::size_t kHeader = 128;       // the message's other fields
+constexpr std::size_t kJpegHeader = 2048;  // a JPEG may be so much longer than its picture
 
 }  // namespace
 
@@ -27,7 +26,7 @@ LeftPublisher::LeftPublisher(MessageBus& bus, const std::string& prefix, const L
   message_.width = size.width;
   message_.height = size.height;
   message_.row_stride = config.jpeg ? 0 : size.width;
-  message_.pixelformat = config.jpeg ? kMjpeg : kGrey;
+  message_.pixelformat = config.jpeg ? kPixelFormatMjpeg : kPixelFormatGrey;
   message_.data.reserve(2 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) +
                         kJpegHeader);
   thread_ = std::thread([this] { run(); });

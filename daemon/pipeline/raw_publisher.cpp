@@ -3,19 +3,19 @@
 #include <cstring>
 
 #include "daemon/pipeline/clocks.h"
+#include "daemon/publish/pixel_format_codes.h"
 
 namespace stereod {
 namespace {
 
-constexpr std::int32_t kGrey = 1'497'715'271;  // "GREY", bot_core.image_t's PIXEL_FORMAT_GRAY
-constexpr std::size_t kHeader = 128;           // the message's other fields
+constexpr std::size_t kHeader = 128;  // the message's other fields
 
 image_t empty_image(Size size) {
   image_t image{};
   image.width = size.width;
   image.height = size.height;
   image.row_stride = size.width;
-  image.pixelformat = kGrey;
+  image.pixelformat = kPixelFormatGrey;
   image.size = size.width * size.height;
   image.data.resize(static_cast<std::size_t>(image.size));
   return image;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "daemon/imagefile/jpeg_encoder.h"
+#include "daemon/publish/pixel_format_codes.h"
 #include "daemon/publish/wire_limits.h"
 
 namespace stereod {
@@ -12,17 +13,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::int32_t kGrey = 1'497'715'271;
-constexpr std::int32_t kMjpeg = 1'196'444'237;
 constexpr std::chrono::seconds kQuiet{1};  // without frames for so long, the status alone is worth showing
 
 std::vector<std::uint8_t> jpeg_of(const image_t& image) {
   const bool sane = image.width > 0 && image.width <= kLargestImageSide && image.height > 0 &&
                     image.height <= kLargestImageSide;
   if (!sane) return {};
-  if (image.pixelformat == kMjpeg) return image.data;
+  if (image.pixelformat == kPixelFormatMjpeg) return image.data;
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  if (image.pixelformat != kGrey || image.row_stride != image.width || image.data.size() != pixels) return {};
+  if (image.pixelformat != kPixelFormatGrey || image.row_stride != image.width || image.data.size() != pixels)
+    return {};
   JpegEncoder encoder({image.width, image.height}, 80);
   const auto bytes = encoder.encode(GreyView(image.data.data(), image.width, image.height, image.row_stride));
   return {bytes.begin(), bytes.end()};
