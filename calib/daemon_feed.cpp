@@ -1,9 +1,9 @@
 #include "calib/daemon_feed.h"
 
-#include "daemon/publish/pixel_format_codes.h"
-
 #include <algorithm>
 #include <stereod/image_t.hpp>
+
+#include "daemon/publish/pixel_format_codes.h"
 
 namespace stereod {
 

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -13,43 +12,15 @@
 #include "daemon/capture/synthetic_scene.h"
 #include "daemon/imagefile/jpeg_codec.h"
 #include "daemon/pipeline/pipeline.h"
+#include "tests/support/keeping_bus.h"
 
 namespace stereod {
 namespace {
 
 constexpr Size kSize{160, 120};
 
-/// Keeps left images and frames.
-class LeftBus final : public MessageBus {
- public:
-  bool publish(const char* channel, const void* data, std::size_t size) noexcept override {
-    const std::lock_guard lock(mutex_);
-    const std::string name = channel;
-    if (name == "T_LEFT") keep(images_, data, size);
-    if (name == "T_FRAME") keep(frames_, data, size);
-    return true;
-  }
-  std::vector<image_t> images() {
-    const std::lock_guard lock(mutex_);
-    return images_;
-  }
-  std::vector<frame_t> frames() {
-    const std::lock_guard lock(mutex_);
-    return frames_;
-  }
-
- private:
-  template <typename Message>
-  static void keep(std::vector<Message>& all, const void* data, std::size_t size) {
-    EXPECT_EQ(all.emplace_back().decode(data, 0, static_cast<int>(size)), static_cast<int>(size));
-  }
-  std::mutex mutex_;
-  std::vector<image_t> images_;
-  std::vector<frame_t> frames_;
-};
-
 /// Runs the pipeline until so many left images have come.
-void run(LeftBus& bus, bool enabled, bool jpeg, std::size_t images) {
+void run(KeepingBus<image_t>& bus, bool enabled, bool jpeg, std::size_t images) {
   Config config;
   config.cameras.source = SourceKind::kSynthetic;
   config.cameras.fps = 0;
@@ -60,7 +31,7 @@ void run(LeftBus& bus, bool enabled, bool jpeg, std::size_t images) {
   config.lcm.spread = 0;
   config.lcm.left_image = {enabled, jpeg, 240};
   Pipeline pipeline(config, open_rig(config), bus);
-  while (bus.images().size() < images || bus.frames().size() < 8) {
+  while (bus.messages().size() < images || bus.frames().size() < 8) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }
@@ -78,11 +49,11 @@ class LeftImages : public testing::TestWithParam<bool> {};
 
 TEST_P(LeftImages, AreTheRectifiedOnesOfTheirFrames) {
   const bool is_jpeg = GetParam();
-  LeftBus bus;
+  KeepingBus<image_t> bus("T_LEFT");
   run(bus, true, is_jpeg, 4);
   const SyntheticScene scene(kSize);
   int compared = 0;
-  for (const image_t& image : bus.images()) {
+  for (const image_t& image : bus.messages()) {
     EXPECT_EQ(image.pixelformat, is_jpeg ? 1196444237 : 1497715271);
     EXPECT_EQ(image.row_stride, is_jpeg ? 0 : kSize.width);
     for (const frame_t& frame : bus.frames()) {
@@ -110,9 +81,9 @@ TEST_P(LeftImages, AreTheRectifiedOnesOfTheirFrames) {
 INSTANTIATE_TEST_SUITE_P(LeftPublisher, LeftImages, testing::Bool());
 
 TEST(LeftPublisher, PublishesNothingUnlessAsked) {
-  LeftBus bus;
+  KeepingBus<image_t> bus("T_LEFT");
   run(bus, false, true, 0);
-  EXPECT_TRUE(bus.images().empty());
+  EXPECT_TRUE(bus.messages().empty());
 }
 
 }  // namespace

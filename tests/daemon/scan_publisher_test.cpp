@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -11,38 +10,10 @@
 #include "daemon/pipeline/pipeline.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/floor_world.h"
+#include "tests/support/keeping_bus.h"
 
 namespace stereod {
 namespace {
-
-/// Keeps scans and frames.
-class ScanBus final : public MessageBus {
- public:
-  bool publish(const char* channel, const void* data, std::size_t size) noexcept override {
-    const std::lock_guard lock(mutex_);
-    const std::string name = channel;
-    if (name == "T_SCAN") keep(scans_, data, size);
-    if (name == "T_FRAME") keep(frames_, data, size);
-    return true;
-  }
-  std::vector<planar_lidar_t> scans() {
-    const std::lock_guard lock(mutex_);
-    return scans_;
-  }
-  std::vector<frame_t> frames() {
-    const std::lock_guard lock(mutex_);
-    return frames_;
-  }
-
- private:
-  template <typename Message>
-  static void keep(std::vector<Message>& all, const void* data, std::size_t size) {
-    EXPECT_EQ(all.emplace_back().decode(data, 0, static_cast<int>(size)), static_cast<int>(size));
-  }
-  std::mutex mutex_;
-  std::vector<planar_lidar_t> scans_;
-  std::vector<frame_t> frames_;
-};
 
 const GroundPlane kGround{0.3, 0.1};
 const std::vector<Post> kPosts = {{0.4, 0, 0.1, 0, 0.4}, {1.5, -0.5, 0.1, 0, 0.6}};
@@ -68,13 +39,13 @@ TEST(ScanPublisher, PublishesWhatTheScanFinds) {
   const ScanConfig config = given_ground();
   ObstacleScan scan(config.options, camera, kGround);
   const ScanResult expected = scan_of(scan, image);
-  ScanBus bus;
+  KeepingBus<planar_lidar_t> bus("T_SCAN");
   ScanPublisher publisher(bus, "T", config, camera);
   const frame_t frame = publish(publisher, image, 77);
   EXPECT_NEAR(frame.nearest_m, 0.4, 0.02);
   EXPECT_EQ(frame.stop, 1);
-  ASSERT_EQ(bus.scans().size(), 1U);
-  const planar_lidar_t message = bus.scans()[0];
+  ASSERT_EQ(bus.messages().size(), 1U);
+  const planar_lidar_t message = bus.messages()[0];
   EXPECT_EQ(message.utime, 77);
   EXPECT_EQ(message.ranges, expected.range_m);
   EXPECT_EQ(message.intensities, expected.support);
@@ -88,29 +59,29 @@ TEST(ScanPublisher, SaysStopUntilItHasFoundTheGroundAndThenFollowsIt) {
   const DisparityImage image = floor_disparity(camera, kGround, {});
   DisparityImage nothing(camera.size);
   for (int y = 0; y < nothing.height(); ++y) std::fill_n(nothing.row(y), nothing.width(), kInvalidDisparity);
-  ScanBus bus;
+  KeepingBus<planar_lidar_t> bus("T_SCAN");
   ScanPublisher publisher(bus, "T", ScanConfig(), camera);
   for (const DisparityImage* seen :
        {static_cast<const DisparityImage*>(&nothing), &image}) {  // the first floor is only fitted to
     const frame_t frame = publish(publisher, *seen, 0);
     EXPECT_EQ(frame.stop, 1);
     EXPECT_EQ(frame.nearest_m, 0.0F);
-    EXPECT_TRUE(bus.scans().empty());
+    EXPECT_TRUE(bus.messages().empty());
   }
   const frame_t frame = publish(publisher, image, 0);
   EXPECT_EQ(frame.stop, 0);
   EXPECT_EQ(frame.nearest_m, 3.0F);
-  EXPECT_EQ(bus.scans().size(), 1U);
+  EXPECT_EQ(bus.messages().size(), 1U);
   // The camera is tilted by 0.02 rad: what looks like a rising floor is the floor again after a while.
   const DisparityImage tilted = floor_disparity(camera, {0.3, 0.12}, {});
   for (int i = 0; i < 30 * 20; ++i) publish(publisher, tilted, 0);
   ScanConfig config = given_ground();
   config.ground = {0.3, 0.12};
-  ScanBus expected;
+  KeepingBus<planar_lidar_t> expected("T_SCAN");
   ScanPublisher knowing(expected, "T", config, camera);
   publish(knowing, floor_disparity(camera, {0.3, 0.12}, kPosts), 0);
   publish(publisher, floor_disparity(camera, {0.3, 0.12}, kPosts), 0);
-  const planar_lidar_t want = expected.scans().back(), got = bus.scans().back();
+  const planar_lidar_t want = expected.messages().back(), got = bus.messages().back();
   for (std::size_t i = 0; i < want.ranges.size(); ++i) EXPECT_NEAR(got.ranges[i], want.ranges[i], 0.03);
 }
 
@@ -145,12 +116,12 @@ TEST(ScanPublisher, IsShownEveryFrameByThePipeline) {
   config.scan.ground = {0.45, 0};  // the scene's
   config.scan.options.stop_distance_m = 0.8;
   config.scan.options.stop_width_m = 0.8;
-  ScanBus bus;
+  KeepingBus<planar_lidar_t> bus("T_SCAN");
   {
     Pipeline pipeline(config, open_rig(config), bus);
     while (bus.frames().size() < 8) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  const std::vector<planar_lidar_t> scans = bus.scans();
+  const std::vector<planar_lidar_t> scans = bus.messages();
   const std::vector<frame_t> frames = bus.frames();
   ASSERT_GE(scans.size(), frames.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
