@@ -12,6 +12,7 @@
 #include "tests/bench/bench_images.h"
 #include "tests/bench/interleaved.h"
 #include "tests/bench/tables.h"
+#include "tests/bench/webcam_calibration.h"
 
 namespace stereod::bench {
 namespace {
@@ -19,23 +20,6 @@ namespace {
 // Pictures in a row, so many that waking the workers, which may take milliseconds on a busy machine, hardly
 // counts.
 constexpr int kBatch = 400;
-
-/// A webcam's lens and a rig that is a little askew, as in bench_thesis.
-CameraCalibration webcam_calibration(Size size) {
-  CameraCalibration calibration;
-  CameraModel& camera = calibration.camera;
-  camera.image = size;
-  camera.fx = camera.fy = 535;
-  camera.cx = 327;
-  camera.cy = 247;
-  camera.k1 = -0.27;
-  camera.k2 = 0.09;
-  camera.p1 = 0.001;
-  camera.p2 = -0.0008;
-  calibration.rotation = rotation_about({0.012, -0.02, 0.008});
-  calibration.projection = {500, 500, 320, 240};
-  return calibration;
-}
 
 struct CvMaps {
   cv::Mat x, y;             // 32-bit floats

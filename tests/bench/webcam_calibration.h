@@ -1,0 +1,26 @@
+// The lens whose pictures the benchmarks of rectification move.
+#pragma once
+
+#include "core/calibration.h"
+#include "core/camera_model.h"
+
+namespace stereod::bench {
+
+/// A webcam's lens and a rig that is a little askew, for 640×480.
+inline CameraCalibration webcam_calibration(Size size) {
+  CameraCalibration calibration;
+  CameraModel& camera = calibration.camera;
+  camera.image = size;
+  camera.fx = camera.fy = 535;
+  camera.cx = 327;
+  camera.cy = 247;
+  camera.k1 = -0.27;
+  camera.k2 = 0.09;
+  camera.p1 = 0.001;
+  camera.p2 = -0.0008;
+  calibration.rotation = rotation_about({0.012, -0.02, 0.008});
+  calibration.projection = {500, 500, 320, 240};
+  return calibration;
+}
+
+}  // namespace stereod::bench
