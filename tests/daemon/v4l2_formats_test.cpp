@@ -122,7 +122,7 @@ TEST_F(JpegCamera, MorePicturesOnLoanThanThereAreOnlyDropsFrames) {
   EXPECT_TRUE(bench_.frame(*bench_.left, 100));
 }
 
-TEST_F(JpegCamera, AllocatesNothingPerFrame) {
+TEST_F(JpegCamera, AllocatesTheSameForEachFrame) {
   if (!AllocationCounter::supported()) GTEST_SKIP() << "allocations cannot be counted in this build";
   std::vector<std::uint8_t> jpeg = without_huffman_tables(camera_jpeg(kSize, -1));
   JpegLumaDecoder decoder;
@@ -156,6 +156,35 @@ TEST(JpegLuma, EveryTruncationIsSeen) {
   GreyImage luma(kSize);
   for (std::size_t length = 0; length + 2 < jpeg.size(); ++length) {
     const std::vector<std::uint8_t> cut(jpeg.begin(), jpeg.begin() + static_cast<std::ptrdiff_t>(length));
+    FrameDrop drop{};
+    EXPECT_FALSE(decoder.decode(cut, luma.view(), drop)) << length;
+  }
+}
+
+// As common webcams send them: their pictures are whole.
+TEST(JpegLuma, BytesTooManyBeforeTheEndDoNotMatter) {
+  const std::vector<std::uint8_t> jpeg = without_huffman_tables(camera_jpeg(kSize, -1));
+  JpegLumaDecoder decoder;
+  GreyImage clean(kSize), luma(kSize);
+  FrameDrop drop{};
+  ASSERT_TRUE(decoder.decode(jpeg, clean.view(), drop));
+  for (const std::size_t more : {1, 2, 4, 100}) {
+    std::vector<std::uint8_t> longer = jpeg;
+    longer.insert(longer.end() - 2, more, std::uint8_t{0x55});
+    ASSERT_TRUE(decoder.decode(longer, luma.view(), drop)) << more;
+    for (int y = 0; y < kSize.height; ++y)
+      EXPECT_EQ(std::memcmp(clean.row(y), luma.row(y), static_cast<std::size_t>(kSize.width)), 0) << y;
+  }
+}
+
+TEST(JpegLuma, AnEndThatComesTooSoonIsSeen) {
+  const std::vector<std::uint8_t> jpeg = without_huffman_tables(camera_jpeg(kSize, -1));
+  JpegLumaDecoder decoder;
+  GreyImage luma(kSize);
+  for (std::size_t length = jpeg.size() / 2; length + 8 < jpeg.size(); ++length) {
+    std::vector<std::uint8_t> cut(jpeg.begin(), jpeg.begin() + static_cast<std::ptrdiff_t>(length));
+    if (jpeg[length - 1] == 0xff) continue;  // would make another marker
+    cut.insert(cut.end(), {0xff, 0xd9});
     FrameDrop drop{};
     EXPECT_FALSE(decoder.decode(cut, luma.view(), drop)) << length;
   }

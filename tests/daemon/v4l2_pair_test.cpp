@@ -320,6 +320,30 @@ TEST_F(Controls, AnExposureThatDoesNotTakeIsReportedOnce) {
             1);
 }
 
+// A control that cannot be read or set for a moment is asked for again.
+TEST_F(Controls, AnErrorThatPassesDoesNotEndLockOrFollow) {
+  for (const ExposureMode mode : {ExposureMode::kLock, ExposureMode::kFollow}) {
+    for (const bool reading : {true, false}) {
+      SCOPED_TRACE(testing::Message() << (mode == ExposureMode::kLock ? "lock" : "follow")
+                                      << (reading ? ", reading" : ", setting"));
+      CameraBench bench;
+      bench.left_camera->controls = bench.right_camera->controls = uvc_controls();
+      set(*bench.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE, 333);
+      set(*bench.left_camera, V4L2_CID_GAIN, 44);
+      bench.config.v4l2.exposure = mode;
+      bench.make();
+      bench.run(mode == ExposureMode::kLock ? 1600 : 100);
+      // The left camera's values when they are first wanted; the right one's way out of its automatic mode.
+      if (reading) bench.left_camera->faults[VIDIOC_G_CTRL] = {EIO, 1};
+      if (!reading) bench.right_camera->faults[VIDIOC_S_CTRL] = {EIO, 1};
+      bench.run(4000);
+      EXPECT_EQ(value(*bench.right_camera, V4L2_CID_EXPOSURE_AUTO), 1);
+      EXPECT_EQ(value(*bench.right_camera, V4L2_CID_EXPOSURE_ABSOLUTE), 333);
+      EXPECT_EQ(value(*bench.right_camera, V4L2_CID_GAIN), 44);
+    }
+  }
+}
+
 class Phase : public testing::Test {
  protected:
   Phase() {

@@ -26,6 +26,7 @@ std::string ExposureKeeper::begin(VideoDevice& device, std::int64_t now_ns) {
   has_time_mode_ = controls.find(V4L2_CID_EXPOSURE_AUTO) != nullptr;
   has_gain_mode_ = controls.find(V4L2_CID_AUTOGAIN) != nullptr;
   applied_.reset();
+  manual_ = false;
   told_ = false;
   next_ns_ = now_ns + kPeriod;
   settled_ns_ = now_ns + kSettle;
@@ -73,17 +74,19 @@ bool ExposureKeeper::tick(VideoDevice& device, std::int64_t now_ns) noexcept {
   next_ns_ = now_ns + kPeriod;
   const bool lock = config_.exposure == ExposureMode::kLock;
   const std::optional<ExposureValues> wanted = pair_.exposure();
-  if (side_ == Side::kLeft && !lock) {
-    pair_.set_exposure(read(device));
+  if (side_ == Side::kLeft && (!lock || !wanted)) {
+    if (!lock || now_ns >= settled_ns_) offer(read(device));
     return false;
   }
-  if (side_ == Side::kLeft && !wanted) {
-    if (now_ns >= settled_ns_) pair_.set_exposure(read(device));
-    return false;
-  }
-  if (!wanted || applied_ == wanted) return false;
+  if (!wanted || (manual_ && applied_ == wanted && got_ == *wanted)) return false;
   fix(device, *wanted);
   return got_ != *wanted && !std::exchange(told_, true);
+}
+
+// What could not be read this time will be the next.
+void ExposureKeeper::offer(const ExposureValues& values) noexcept {
+  if ((has_time_ && !values.time) || (has_gain_ && !values.gain)) return;
+  pair_.set_exposure(values);
 }
 
 ExposureValues ExposureKeeper::read(VideoDevice& device) noexcept {
@@ -95,16 +98,17 @@ ExposureValues ExposureKeeper::read(VideoDevice& device) noexcept {
 }
 
 void ExposureKeeper::fix(VideoDevice& device, const ExposureValues& values) noexcept {
-  if (!applied_) go_manual(device);
+  if (!manual_) manual_ = go_manual(device);
   if (has_time_ && values.time) device.set_control(V4L2_CID_EXPOSURE_ABSOLUTE, *values.time);
   if (has_gain_ && values.gain) device.set_control(V4L2_CID_GAIN, *values.gain);
   applied_ = values;
   got_ = read(device);
 }
 
-void ExposureKeeper::go_manual(VideoDevice& device) noexcept {
-  if (has_time_mode_) device.set_control(V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL);
-  if (has_gain_mode_) device.set_control(V4L2_CID_AUTOGAIN, 0);
+bool ExposureKeeper::go_manual(VideoDevice& device) noexcept {
+  const bool time = !has_time_mode_ || device.set_control(V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL) == 0;
+  const bool gain = !has_gain_mode_ || device.set_control(V4L2_CID_AUTOGAIN, 0) == 0;
+  return time && gain;
 }
 
 std::string ExposureKeeper::problem() const {

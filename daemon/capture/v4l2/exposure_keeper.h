@@ -46,7 +46,8 @@ class ExposureKeeper {
   ControlValues values() const;
   ExposureValues read(VideoDevice& device) noexcept;
   void fix(VideoDevice& device, const ExposureValues& values) noexcept;
-  void go_manual(VideoDevice& device) noexcept;
+  void offer(const ExposureValues& values) noexcept;
+  bool go_manual(VideoDevice& device) noexcept;
 
   CameraPair& pair_;
   const Side side_;
@@ -59,6 +60,7 @@ class ExposureKeeper {
   std::int64_t exposure_ns_ = 0;
   std::optional<ExposureValues> applied_;
   ExposureValues got_;
+  bool manual_ = false;  // the automatic modes have been switched off
   bool told_ = false;
 };
 

@@ -3,9 +3,32 @@
 #include <turbojpeg.h>
 
 #include <algorithm>
+#include <cstring>
 #include <new>
 
 namespace stereod {
+namespace {
+
+// Whether the picture is cut into pieces by restart markers: a segment DRI before the scan.
+bool has_restarts(std::span<const std::uint8_t> jpeg) noexcept {
+  constexpr std::uint8_t kRestartInterval = 0xdd, kScan = 0xda;
+  for (std::size_t at = 2; at + 4 <= jpeg.size() && jpeg[at] == 0xff && jpeg[at + 1] != kScan;) {
+    if (jpeg[at + 1] == kRestartInterval) return true;
+    at += 2 + (static_cast<std::size_t>(jpeg[at + 2]) << 8 | jpeg[at + 3]);
+  }
+  return false;
+}
+
+// Some webcams put a few bytes too many before the end of every picture. libjpeg warns of that as of real
+// damage, and keeps the first warning; if that is this one, it came after the whole picture, unless the end
+// was found in a search for a restart marker.
+bool only_too_long(tjhandle turbojpeg, std::span<const std::uint8_t> jpeg) noexcept {
+  return tjGetErrorCode(turbojpeg) == TJERR_WARNING &&
+         std::strstr(tjGetErrorStr2(turbojpeg), "extraneous bytes before marker 0xd9") != nullptr &&
+         !has_restarts(jpeg);
+}
+
+}  // namespace
 
 JpegLumaDecoder::JpegLumaDecoder() : turbojpeg_(tjInitDecompress()) {
   if (turbojpeg_ == nullptr) throw std::bad_alloc();
@@ -44,7 +67,7 @@ bool JpegLumaDecoder::decode(std::span<const std::uint8_t> jpeg, ImageView<std::
   constexpr int kFlags = TJFLAG_LIMITSCANS;
   const int status = tjDecompress2(turbojpeg_, jpeg.data(), length, luma.row(0), width,
                                    static_cast<int>(luma.stride()), height, TJPF_GRAY, kFlags);
-  if (status != 0) {
+  if (status != 0 && !only_too_long(turbojpeg_, jpeg)) {
     drop = FrameDrop::kJpegDamaged;
     start_anew();
     return false;

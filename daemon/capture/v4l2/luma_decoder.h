@@ -10,8 +10,8 @@
 
 namespace stereod {
 
-/// Decodes JPEGs to luma; one for each camera's thread. After the first picture nothing is allocated here
-/// (libjpeg-turbo has its own memory pools).
+/// Decodes JPEGs to luma; one for each camera's thread. Allocates nothing itself; libjpeg-turbo takes a few
+/// blocks for each picture and gives them back (docs/cameras.md).
 class JpegLumaDecoder {
  public:
   /// Throws std::bad_alloc.
@@ -22,7 +22,8 @@ class JpegLumaDecoder {
 
   /// Decodes a JPEG of just the size of `luma`. JPEGs without Huffman tables, as UVC cameras send them, get
   /// the standard ones. A header of another size is refused before anything is decoded; a truncated picture,
-  /// which libjpeg would fill up with grey, after. False: `drop` says why, and the picture is undefined.
+  /// which libjpeg would fill up with grey, after. Bytes too many before the end of
+  /// a picture do not matter. False: `drop` says why, and the picture is undefined.
   bool decode(std::span<const std::uint8_t> jpeg, ImageView<std::uint8_t> luma, FrameDrop& drop) noexcept;
 
  private:
