@@ -75,7 +75,7 @@ struct CamerasConfig {
 };
 
 struct RectifyConfig {
-  Interpolation interpolation = Interpolation::kNearest;
+  Interpolation interpolation = Interpolation::kBilinear;
   std::optional<double> zoom;  ///< see zoomed(); nothing: as the calibration has it
 };
 

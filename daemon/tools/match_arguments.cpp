@@ -40,7 +40,7 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--isa", flags.isa, "instruction set for simd: auto, scalar, ssse3, sse41, avx2 or neon");
   app.add_option("--threads", flags.threads, "1 to 256; default: one for each CPU");
   app.add_option("--calibration", flags.calibration, "rectify both pictures first, by this calibration.yaml");
-  app.add_option("--interpolation", flags.interpolation, "with --calibration: nearest (default) or bilinear");
+  app.add_option("--interpolation", flags.interpolation, "with --calibration: bilinear (default) or nearest");
   app.add_option("--zoom", flags.zoom,
                  "with --calibration: from 0, only what both cameras have pixels for, to 1, all of it");
   app.add_option("--rectified", flags.rectified, "write the two pictures that were matched: .png .png")

@@ -70,7 +70,7 @@ matcher:
   implementation: sliding
   isa: scalar
   cache: small
-rectify: {interpolation: bilinear, zoom: 0.25}
+rectify: {interpolation: nearest, zoom: 0.25}
 workers: 3
 scheduling: {priority: 10, cpus: "0,2-4"}
 lcm: {url: "memq://", prefix: FRONT, rows_per_message: 8, spread: 0.5, left_image: grey, left_images_per_second: 3}
@@ -111,7 +111,7 @@ log: {level: debug}
   EXPECT_EQ(config.matcher.implementation, Implementation::kSliding);
   EXPECT_EQ(config.matcher.isa, Isa::kScalar);
   EXPECT_EQ(config.matcher.cache, CacheUse::kSmall);
-  EXPECT_EQ(config.rectify.interpolation, Interpolation::kBilinear);
+  EXPECT_EQ(config.rectify.interpolation, Interpolation::kNearest);
   EXPECT_EQ(config.rectify.zoom, 0.25);
   EXPECT_EQ(config.worker_count(), 3);
   EXPECT_EQ(config.scheduling.priority, 10);

@@ -118,8 +118,10 @@ DisparityImage expected_disparity(const Config& config, std::int64_t frame) {
   const GreyImage raw_right = scene.render_right(number);
   GreyImage left(kSize);
   GreyImage right(kSize);
-  RectifyMap(scene.calibration().left, layout).grey_rows(raw_left.row(0), {0, kSize.height}, left.view());
-  RectifyMap(scene.calibration().right, layout).grey_rows(raw_right.row(0), {0, kSize.height}, right.view());
+  RectifyMap(scene.calibration().left, layout, config.rectify.interpolation)
+      .grey_rows(raw_left.row(0), {0, kSize.height}, left.view());
+  RectifyMap(scene.calibration().right, layout, config.rectify.interpolation)
+      .grey_rows(raw_right.row(0), {0, kSize.height}, right.view());
   WorkerPool pool(1);
   DisparityImage disparity(kSize);
   FrameMatcher(config.matcher, kSize, pool).match(left.view(), right.view(), disparity.view());
