@@ -99,9 +99,19 @@ void V4l2Camera::open() {
     opened();
     return;
   }
+  if (fault->reason == CameraReason::kSameCamera && wait_for_other()) return;
   if (fault->reason == CameraReason::kNoBandwidth) no_bandwidth(*fault);
   const bool absent = fault->step == CameraStep::kFind || fault->reason == CameraReason::kUnplugged;
   fail(absent ? CameraState::kAbsent : CameraState::kOpening, std::move(*fault));
+}
+
+// After ports were swapped the other camera may not have noticed yet that it lost what is found here.
+bool V4l2Camera::wait_for_other() {
+  const std::int64_t now_ns = system_.now_ns();
+  if (refused_ns_ == 0) refused_ns_ = now_ns;
+  if (now_ns - refused_ns_ >= kRetry) return false;
+  retry_ns_ = now_ns + kRetry / 10;
+  return true;
 }
 
 std::optional<CameraFault> V4l2Camera::find_and_open() {
@@ -121,6 +131,7 @@ std::optional<CameraFault> V4l2Camera::find_and_open() {
                        node_ + " belongs to the camera that is the " + side_name(opposite(side_)) +
                            " one; name two cameras in cameras.v4l2"};
   }
+  refused_ns_ = 0;
   ladder_step_ = pair_->ladder_step();
   StreamOptions options{node_, size_, config_.fps, config_.v4l2.format, ladder_step_};
   std::optional<CameraFault> fault = stream_.open(options);

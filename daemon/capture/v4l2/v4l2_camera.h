@@ -46,6 +46,7 @@ class V4l2Camera final : public FrameSource {
   void open();
   void opened();
   void started();
+  bool wait_for_other();
   std::optional<CameraFault> find_and_open();
   FrameLease fetch(std::int64_t until_ns);
   void streaming();
@@ -78,7 +79,8 @@ class V4l2Camera final : public FrameSource {
   std::string name_;  // what to look for
   std::string node_;  // what it was found as
   int ladder_step_ = 0;
-  std::int64_t retry_ns_ = 0;  // when to look again
+  std::int64_t retry_ns_ = 0;    // when to look again
+  std::int64_t refused_ns_ = 0;  // since when the other camera has what this one is to be; 0: it has not
   std::int64_t last_good_ns_ = 0;
   std::int64_t buffers_at_last_good_ = 0;
   bool had_frame_ = false;       // since it was opened
