@@ -8,7 +8,7 @@ build_packages=(
   g++ cmake ninja-build pkg-config
   liblcm-dev liblcm-bin        # the messages on the wire, and the generator of their classes
   libyaml-cpp-dev libspdlog-dev libcli11-dev
-  libturbojpeg0-dev libpng-dev zlib1g-dev
+  libturbojpeg0-dev libjpeg62-turbo-dev libpng-dev zlib1g-dev
   libsystemd-dev               # word to systemd of how the daemon is
   libv4l-dev                   # formats of cameras that are not read directly
   iproute2 util-linux          # ip and unshare: the demo's and the tests' own network

@@ -24,7 +24,7 @@ fi
 command -v mmdebstrap >/dev/null || die "no mmdebstrap here: apt install mmdebstrap"
 
 packages=libc6-dev,libstdc++-12-dev,liblcm-dev,libv4l-dev,libyaml-cpp-dev,libspdlog-dev,libcli11-dev
-packages+=,libturbojpeg0-dev,libpng-dev,libsystemd-dev,libgtest-dev,libgmock-dev,libcpp-httplib-dev
+packages+=,libturbojpeg0-dev,libjpeg62-turbo-dev,libpng-dev,libsystemd-dev,libgtest-dev,libgmock-dev,libcpp-httplib-dev
 
 # Only sources that name Debian 12 itself as a suite: others need not have the architecture, nor may their packages get in.
 sources=()

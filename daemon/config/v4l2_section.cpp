@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 namespace stereod {
 namespace {
@@ -35,7 +36,23 @@ std::string read_device(YamlSection& section, const std::string& key, const std:
                           "', allowed are auto, a name below /dev/v4l/by-path or by-id, a node such as "
                           "/dev/video0, and serial:NUMBER; 'stereod --list-cameras' shows them");
   }
-  return device;
+  // One node may be written in many ways: //dev/video0.
+  return device.starts_with('/') ? std::filesystem::path(device).lexically_normal().string() : device;
+}
+
+// What lock and follow make equal is not set for one camera alone.
+void check_own_controls(YamlSection& section, const std::string& key, const ControlValues& own,
+                        ExposureMode mode) {
+  constexpr std::array<std::string_view, 7> kExposure{
+      "exposure_time_absolute", "exposure_absolute", "auto_exposure", "exposure_auto", "gain",
+      "gain_automatic",         "autogain"};
+  if (mode == ExposureMode::kAuto) return;
+  for (const auto& [name, value] : own) {
+    if (std::find(kExposure.begin(), kExposure.end(), name) == kExposure.end()) continue;
+    const std::string modes = mode == ExposureMode::kLock ? "lock" : "follow";
+    section.fail(key, "found " + name + " for one camera, but with 'exposure: " + modes +
+                          "' both have the same; name it in 'controls' for both, or set 'exposure: auto'");
+  }
 }
 
 }  // namespace
@@ -61,6 +78,8 @@ void read_v4l2_section(YamlSection& cameras_section, CamerasConfig& cameras) {
   v4l2.controls = section.integers("controls");
   v4l2.left_controls = section.integers("left_controls");
   v4l2.right_controls = section.integers("right_controls");
+  check_own_controls(section, "left_controls", v4l2.left_controls, v4l2.exposure);
+  check_own_controls(section, "right_controls", v4l2.right_controls, v4l2.exposure);
   v4l2.align = section.choice<AlignMode>("align", v4l2.align, "never, start and always", parse_align);
   v4l2.target_skew_ms = section.number("target_skew_ms", v4l2.target_skew_ms, 0.1, 100);
   v4l2.align_tries = section.integer("align_tries", v4l2.align_tries, 1, 100);

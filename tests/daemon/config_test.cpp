@@ -235,6 +235,18 @@ INSTANTIATE_TEST_SUITE_P(
                   "stereod.yaml:3: matcher.preset: found 'quick', allowed are thesis, fast, robust"},
         BadConfig{"cameras: {source: synthetic}\nmatcher:\n  subpixel: maybe\n",
                   "stereod.yaml:3: matcher.subpixel: found 'maybe', allowed are true and false"},
+        BadConfig{"cameras:\n  source: v4l2\n  v4l2: {left: //dev/video0, right: /dev/./video0}\n",
+                  "stereod.yaml:3: cameras.v4l2.right: found '/dev/video0', which is the left camera; name "
+                  "another one"},
+        BadConfig{
+            "cameras:\n  source: v4l2\n  v4l2: {exposure: lock, left_controls: {gain: 3}}\n",
+            "stereod.yaml:3: cameras.v4l2.left_controls: found gain for one camera, but with 'exposure: "
+            "lock' both have the same; name it in 'controls' for both, or set 'exposure: auto'"},
+        BadConfig{
+            "cameras:\n  source: v4l2\n  v4l2: {exposure: follow, right_controls: {exposure_absolute: 3}}\n",
+            "stereod.yaml:3: cameras.v4l2.right_controls: found exposure_absolute for one camera, but "
+            "with 'exposure: follow' both have the same; name it in 'controls' for both, or set "
+            "'exposure: auto'"},
         BadConfig{"cameras: {source: synthetic}\nmatcher: 7\n",
                   "stereod.yaml:2: matcher: found '7', allowed is a map of keys and values"},
         BadConfig{"cameras: {source: synthetic}\nworkers: 3\nworkers: 4\n",

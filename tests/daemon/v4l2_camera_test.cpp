@@ -192,6 +192,41 @@ TEST_F(V4l2CameraTest, ASilentCameraIsWedgedAndComesBackByItself) {
   EXPECT_EQ(camera.report().state, "streaming");
 }
 
+// However soon after a start in vain it comes to itself.
+TEST_F(V4l2CameraTest, ACameraThatNeedsANewStartGetsItSoon) {
+  bench_.left_camera->thaws_at_start = true;
+  bench_.left_camera->start_latency_ns = 400 * kMs;
+  V4l2Camera& camera = open_left();
+  for (int late_ms = 1; late_ms < 1500; late_ms += 100) {
+    bench_.left_camera->frozen = true;
+    EXPECT_FALSE(bench_.frame(camera, 5000));
+    const int starts = bench_.left_camera->starts;
+    while (bench_.left_camera->starts == starts) camera.next(std::chrono::milliseconds(1));
+    EXPECT_FALSE(bench_.frame(camera, late_ms));
+    bench_.left_camera->frozen = false;
+    const std::int64_t possible_ns = bench_.video.now_ns();
+    ASSERT_TRUE(bench_.frame(camera));
+    EXPECT_LT(bench_.video.now_ns() - possible_ns, 2000 * kMs) << late_ms;
+  }
+}
+
+TEST_F(V4l2CameraTest, ACameraThatStartsSlowlyIsWaitedFor) {
+  bench_.left_camera->start_latency_ns = 2500 * kMs;
+  bench_.make();
+  for (int round = 0; round < 3; ++round) {
+    ASSERT_TRUE(bench_.frame(*bench_.left, 4000)) << round;
+    EXPECT_EQ(bench_.left_camera->starts, 2 * round + 1);
+    bench_.left_camera->frozen = true;  // wedged, and started anew
+    EXPECT_FALSE(bench_.frame(*bench_.left, 1100));
+    bench_.left_camera->frozen = false;
+    ASSERT_TRUE(bench_.frame(*bench_.left, 4000)) << round;
+    EXPECT_EQ(bench_.left_camera->starts, 2 * round + 2) << "it has shown how long it takes";
+    bench_.video.plug(*bench_.left_camera, false);
+    EXPECT_FALSE(bench_.frame(*bench_.left, 1500));
+    bench_.video.plug(*bench_.left_camera, true);
+  }
+}
+
 TEST_F(V4l2CameraTest, ACameraThatOnlySendsRubbishIsNamedSo) {
   V4l2Camera& camera = open_left();
   bench_.left_camera->on_frame = [](FakeFrame& frame) { frame.bytes.resize(100); };
@@ -273,7 +308,37 @@ TEST_F(V4l2CameraTest, TheSameCameraTwiceIsRefused) {
   EXPECT_GT(frames.left, 40);
   EXPECT_EQ(frames.right, 0);
   EXPECT_EQ(bench_.right->report().reason,
-            "left and right are both /dev/video0; name two cameras in cameras.v4l2");
+            "/dev/video0 belongs to the camera that is the left one; name two cameras in cameras.v4l2");
+}
+
+TEST_F(V4l2CameraTest, TwoNodesOfOneSensorAreTheSameCamera) {
+  bench_.right_camera->bus = bench_.left_camera->bus;  // one device with two cameras in it has that too
+  bench_.make();
+  EXPECT_GT(bench_.run(2000).right, 40);
+  bench_.left_camera->function = bench_.right_camera->function = "1-2:1.0";
+  bench_.make();
+  EXPECT_EQ(bench_.run(2000).right, 0);
+  EXPECT_EQ(bench_.right->fault().reason, CameraReason::kSameCamera);
+  EXPECT_THAT(bench_.right->report().reason,
+              HasSubstr("/dev/video2 belongs to the camera that is the left one"));
+  bench_.config.v4l2.left = bench_.config.v4l2.right = "auto";
+  bench_.make();
+  EXPECT_EQ(bench_.run(1000).left, 0);
+  EXPECT_THAT(bench_.left->report().reason, HasSubstr("only /dev/video0 is plugged in"));
+}
+
+TEST_F(V4l2CameraTest, CamerasSwappedAtOnceAreNotTakenForOne) {
+  bench_.make();
+  bench_.run(300);
+  bench_.video.plug(*bench_.left_camera, false);
+  bench_.video.plug(*bench_.right_camera, false);
+  std::swap(bench_.left_camera->node, bench_.right_camera->node);
+  bench_.video.plug(*bench_.left_camera, true);
+  bench_.video.plug(*bench_.right_camera, true);
+  EXPECT_GE(bench_.run(500).left, 5);
+  EXPECT_THAT(bench_.left->report().device, HasSubstr("/dev/video2"));
+  EXPECT_THAT(bench_.right->report().device, HasSubstr("/dev/video0"));
+  EXPECT_EQ(logged("belongs to"), 0);
 }
 
 TEST_F(V4l2CameraTest, AMetadataNodeIsNoCamera) {

@@ -177,6 +177,32 @@ TEST(JpegLuma, BytesTooManyBeforeTheEndDoNotMatter) {
   }
 }
 
+TEST(JpegLuma, NorDoTheyBeforeARestartMarker) {
+  const std::vector<std::uint8_t> jpeg = without_huffman_tables(camera_jpeg(kSize, -1, 1));
+  const auto is_restart = [&](std::size_t at) {
+    return jpeg[at] == 0xff && jpeg[at + 1] >= 0xd0 && jpeg[at + 1] <= 0xd7;
+  };
+  JpegLumaDecoder decoder;
+  GreyImage clean(kSize), luma(kSize);
+  FrameDrop drop{};
+  ASSERT_TRUE(decoder.decode(jpeg, clean.view(), drop));
+  int restarts = 0;
+  for (std::size_t at = jpeg.size() / 2; at + 2 < jpeg.size(); ++at) {
+    if (!is_restart(at)) continue;
+    ++restarts;
+    std::vector<std::uint8_t> longer = jpeg, shorter = jpeg;
+    longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(at), 2, std::uint8_t{0x55});
+    ASSERT_TRUE(decoder.decode(longer, luma.view(), drop)) << at;
+    for (int y = 0; y < kSize.height; ++y)
+      EXPECT_EQ(std::memcmp(clean.row(y), luma.row(y), static_cast<std::size_t>(kSize.width)), 0) << y;
+    shorter.erase(shorter.begin() + static_cast<std::ptrdiff_t>(at),
+                  shorter.begin() + static_cast<std::ptrdiff_t>(at) + 2);
+    EXPECT_FALSE(decoder.decode(shorter, luma.view(), drop)) << "a marker is missing at " << at;
+    EXPECT_EQ(drop, FrameDrop::kJpegDamaged);
+  }
+  EXPECT_GT(restarts, 1);
+}
+
 TEST(JpegLuma, AnEndThatComesTooSoonIsSeen) {
   const std::vector<std::uint8_t> jpeg = without_huffman_tables(camera_jpeg(kSize, -1));
   JpegLumaDecoder decoder;
@@ -190,8 +216,13 @@ TEST(JpegLuma, AnEndThatComesTooSoonIsSeen) {
   }
 }
 
+/// Any rate from the lowest to the fastest, or those listed.
+OfferedRates any_rate(double lowest, double fastest) { return {{fastest, lowest}, true}; }
+OfferedRates rates(std::vector<double> listed) { return {std::move(listed), false}; }
+
 TEST(FormatLadder, TakesTheUncompressedFirstThenJpegThenLowerRates) {
-  const std::vector<FormatRequest> ladder = format_ladder({{kMjpeg, 30}, {kYuyv, 30}}, "auto", 30);
+  const std::vector<FormatRequest> ladder =
+      format_ladder({{kMjpeg, any_rate(1, 30)}, {kYuyv, rates({30})}}, "auto", 30);
   ASSERT_EQ(ladder.size(), 4u);
   EXPECT_EQ(ladder[0].pixels, kYuyv);
   EXPECT_EQ(ladder[1].pixels, kMjpeg);
@@ -202,36 +233,51 @@ TEST(FormatLadder, TakesTheUncompressedFirstThenJpegThenLowerRates) {
 }
 
 TEST(FormatLadder, AFormatTooSlowComesAfterOneThatIsNot) {
-  EXPECT_EQ(format_ladder({{kYuyv, 10}, {kMjpeg, 30}}, "auto", 30)[0].pixels, kMjpeg);
-  EXPECT_EQ(format_ladder({{kYuyv, 30}, {fourcc('G', 'R', 'E', 'Y'), 10}}, "auto", 30)[0].pixels, kYuyv);
-  const auto slow = format_ladder({{kYuyv, 10}}, "auto", 30);
+  EXPECT_EQ(format_ladder({{kYuyv, rates({10})}, {kMjpeg, rates({30})}}, "auto", 30)[0].pixels, kMjpeg);
+  EXPECT_EQ(
+      format_ladder({{kYuyv, rates({30})}, {fourcc('G', 'R', 'E', 'Y'), rates({10})}}, "auto", 30)[0].pixels,
+      kYuyv);
+  const auto slow = format_ladder({{kYuyv, rates({10})}}, "auto", 30);
   EXPECT_EQ(slow[0].pixels, kYuyv);
   EXPECT_EQ(slow[0].fps, 10);
 }
 
 TEST(FormatLadder, LessOnTheBusIsBetter) {
-  EXPECT_EQ(format_ladder({{kYuyv, 0}, {fourcc('N', 'V', '1', '2'), 0}}, "auto", 30)[0].pixels,
-            fourcc('N', 'V', '1', '2'));
+  EXPECT_EQ(
+      format_ladder({{kYuyv, rates({})}, {fourcc('N', 'V', '1', '2'), rates({})}}, "auto", 30)[0].pixels,
+      fourcc('N', 'V', '1', '2'));
 }
 
 TEST(FormatLadder, WhatIsNotReadHereIsConverted) {
-  const auto ladder = format_ladder({{fourcc('P', '2', '0', '7'), 30}}, "auto", 30);
-  ASSERT_EQ(ladder.size(), 1u);
+  const auto ladder = format_ladder({{fourcc('P', '2', '0', '7'), rates({30, 15})}}, "auto", 30);
+  ASSERT_EQ(ladder.size(), 2u) << "with less, too, for a bus that is full";
   EXPECT_TRUE(ladder[0].convert);
+  EXPECT_EQ(ladder[0].fps, 30);
+  EXPECT_TRUE(ladder[1].convert);
+  EXPECT_EQ(ladder[1].fps, 15);
   EXPECT_EQ(ladder[0].pixels, fourcc('Y', 'U', '1', '2'));
 }
 
 TEST(FormatLadder, ANamedFormatHasNoAlternative) {
-  const auto ladder = format_ladder({{kYuyv, 30}, {kMjpeg, 30}}, "mjpeg", 60);
+  const auto ladder = format_ladder({{kYuyv, rates({30})}, {kMjpeg, rates({30})}}, "mjpeg", 60);
   ASSERT_EQ(ladder.size(), 1u);
   EXPECT_EQ(ladder[0].pixels, kMjpeg);
   EXPECT_EQ(ladder[0].fps, 30);
-  EXPECT_TRUE(format_ladder({{kYuyv, 30}}, "grey", 30).empty());
+  EXPECT_TRUE(format_ladder({{kYuyv, rates({30})}}, "grey", 30).empty());
   EXPECT_TRUE(format_ladder({}, "auto", 30).empty());
 }
 
+TEST(FormatLadder, GoesDownToRatesThatTheCameraHas) {
+  std::vector<double> asked;
+  for (const FormatRequest& step : format_ladder({{kMjpeg, rates({30, 25, 20, 15, 10, 5})}}, "auto", 30))
+    asked.push_back(step.fps);
+  EXPECT_EQ(asked, (std::vector<double>{30, 20, 10}));
+  EXPECT_EQ(format_ladder({{kMjpeg, rates({30})}}, "auto", 30).size(), 1u) << "it has no other";
+  EXPECT_EQ(format_ladder({{kMjpeg, any_rate(10, 30)}}, "auto", 30).size(), 2u) << "7.5 is out of its range";
+}
+
 TEST(FormatLadder, RatesDoNotFallBelowFive) {
-  const auto ladder = format_ladder({{kMjpeg, 12}}, "auto", 12);
+  const auto ladder = format_ladder({{kMjpeg, {}}}, "auto", 12);
   ASSERT_EQ(ladder.size(), 2u);
   EXPECT_EQ(ladder[1].fps, 6);
 }

@@ -3,6 +3,7 @@
 #include <linux/videodev2.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 
@@ -115,6 +116,32 @@ TEST_F(Bandwidth, ANamedFormatIsKeptAndTheRemedySaid) {
       "30/s; set cameras.v4l2.format to mjpeg or auto, lower cameras.fps, or plug one camera into another "
       "USB controller");
   EXPECT_EQ(bench_.left_camera->starts, 1);
+}
+
+// Wherever the driver notices that the bus is full.
+TEST(BandwidthSentence, IsSaidAtEveryStep) {
+  for (const unsigned long request : {VIDIOC_S_FMT, VIDIOC_S_PARM, VIDIOC_QBUF, VIDIOC_STREAMON}) {
+    CameraBench bench;
+    bench.config.v4l2.format = "yuyv";
+    bench.right_camera->faults[request] = {ENOSPC, 1'000'000};
+    bench.make();
+    bench.run(1000);
+    EXPECT_THAT(
+        bench.right->report().reason,
+        HasSubstr("the bus usb-0000:00:14.0 cannot carry YUYV 64×48 at 30/s beside the other camera's "
+                  "YUYV 64×48 at 30/s; set cameras.v4l2.format to mjpeg"))
+        << request;
+  }
+}
+
+TEST(BandwidthSentence, IsSaidOfAStreamThatFails) {
+  CameraBench bench;
+  bench.config.v4l2.format = "yuyv";
+  bench.make();
+  bench.run(500);
+  bench.right_camera->faults[VIDIOC_DQBUF] = {ENOSPC, 1};
+  bench.run(200);
+  EXPECT_THAT(bench.right->report().reason, HasSubstr("cannot carry YUYV 64×48 at 30/s beside"));
 }
 
 TEST_F(Bandwidth, WithNoStepLeftItSaysSoAndGoesOnTrying) {
@@ -304,6 +331,44 @@ TEST_F(Controls, LockSettlesAndThenKeepsBothTheSame) {
   EXPECT_EQ(value(*bench_.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE), 333) << "for good";
 }
 
+TEST_F(Controls, ANamedExposureIsKeptAndTheGainIsStillLocked) {
+  bench_.config.v4l2.exposure = ExposureMode::kLock;
+  bench_.config.v4l2.controls = {{"exposure_time_absolute", 120}};
+  for (FakeCamera* camera : {bench_.left_camera, bench_.right_camera})
+    camera->controls.push_back({V4L2_CID_AUTOGAIN, "Gain, Automatic", 0, 1, 1, 1, V4L2_CTRL_TYPE_BOOLEAN});
+  bench_.make();
+  bench_.run(1500);
+  EXPECT_EQ(value(*bench_.left_camera, V4L2_CID_AUTOGAIN), 1) << "for two seconds";
+  set(*bench_.left_camera, V4L2_CID_GAIN, 55);
+  bench_.run(3000);
+  for (const FakeCamera* camera : {bench_.left_camera, bench_.right_camera}) {
+    EXPECT_EQ(value(*camera, V4L2_CID_EXPOSURE_AUTO), 1);
+    EXPECT_EQ(value(*camera, V4L2_CID_EXPOSURE_ABSOLUTE), 120);
+    EXPECT_EQ(value(*camera, V4L2_CID_AUTOGAIN), 0);
+    EXPECT_EQ(value(*camera, V4L2_CID_GAIN), 55);
+  }
+  EXPECT_EQ(bench_.right->report().note, "");
+}
+
+TEST_F(Controls, ANoteStandsForAsLongAsItIsTrue) {
+  bench_.config.v4l2.exposure = ExposureMode::kFollow;
+  bench_.config.v4l2.controls = {{"sharpness", 3}};
+  for (FakeControl& control : bench_.right_camera->controls)
+    if (control.id == V4L2_CID_EXPOSURE_ABSOLUTE) control.most = 100;
+  bench_.make();
+  bench_.run(1500);
+  EXPECT_THAT(bench_.right->report().note,
+              HasSubstr("it has no control sharpness; its exposure does not take"));
+  set(*bench_.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE, 90);
+  bench_.run(1500);
+  EXPECT_EQ(bench_.right->report().note, "it has no control sharpness");
+  EXPECT_EQ(std::count_if(
+                bench_.log.begin(), bench_.log.end(),
+                [](const std::string& line) { return line.find("right camera: it has no") != line.npos; }),
+            1 + 1)
+      << "at the start, and with the exposure";
+}
+
 TEST_F(Controls, AnExposureThatDoesNotTakeIsReportedOnce) {
   bench_.config.v4l2.exposure = ExposureMode::kFollow;
   for (FakeControl& control : bench_.right_camera->controls)
@@ -411,6 +476,15 @@ TEST_F(Phase, ARestartThatFailsIsAFaultLikeAnyOther) {
   bench_.right_camera->faults[VIDIOC_STREAMON] = {EIO, 1, 1};
   bench_.run(10'000);
   EXPECT_EQ(bench_.right->report().reconnects, 1);
+  EXPECT_EQ(bench_.pair->phase().state, PhaseState::kAligned);
+}
+
+TEST_F(Phase, ARestartThatFindsTheBusFullSaysSo) {
+  bench_.config.v4l2.format = "yuyv";
+  bench_.make();
+  bench_.right_camera->faults[VIDIOC_STREAMON] = {ENOSPC, 1, 1};
+  bench_.run(10'000);
+  EXPECT_THAT(bench_.right->report().last_fault, HasSubstr("cannot carry YUYV 64×48 at 30/s beside"));
   EXPECT_EQ(bench_.pair->phase().state, PhaseState::kAligned);
 }
 

@@ -2,11 +2,13 @@
 
 #include <turbojpeg.h>
 
+#include <cstdlib>
 #include <stdexcept>
+#include <string>
 
 namespace stereod {
 
-std::vector<std::uint8_t> camera_jpeg(Size size, int value) {
+std::vector<std::uint8_t> camera_jpeg(Size size, int value, int restart_rows) {
   std::vector<std::uint8_t> rgb;
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
@@ -14,6 +16,8 @@ std::vector<std::uint8_t> camera_jpeg(Size size, int value) {
       rgb.insert(rgb.end(), {level, level, level});
     }
   }
+  // TurboJPEG takes this from the environment alone.
+  if (restart_rows > 0) setenv("TJ_RESTART", std::to_string(restart_rows).c_str(), 1);
   tjhandle encoder = tjInitCompress();
   unsigned char* out = nullptr;
   unsigned long length = 0;
@@ -21,6 +25,7 @@ std::vector<std::uint8_t> camera_jpeg(Size size, int value) {
                   0) != 0) {
     throw std::runtime_error(tjGetErrorStr2(encoder));
   }
+  unsetenv("TJ_RESTART");
   std::vector<std::uint8_t> jpeg(out, out + length);
   tjFree(out);
   tjDestroy(encoder);

@@ -37,6 +37,9 @@ void FakeVideo::at(std::int64_t time_ns, std::function<void()> action) {
 void FakeVideo::plug(FakeCamera& camera, bool plugged) {
   const std::lock_guard lock(mutex_);
   camera.plugged = plugged;
+  for (auto& [descriptor, opened] : open_) {
+    if (opened.camera == &camera && !plugged) opened.gone = true;
+  }
   ++device_changes_;
 }
 
@@ -57,6 +60,14 @@ std::string FakeVideo::resolve(const std::string& name) {
     if (link || camera->node == name) return camera->node;
   }
   return {};
+}
+
+std::string FakeVideo::camera_of(const std::string& node) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& camera : cameras_) {
+    if (camera->plugged && camera->node == node && !camera->function.empty()) return camera->function;
+  }
+  return node;
 }
 
 std::unique_ptr<Waiter> FakeVideo::make_waiter() { return std::make_unique<FakeWaiter>(*this); }
@@ -130,7 +141,7 @@ int FakeVideo::ioctl(int descriptor, unsigned long request, void* argument) noex
   const auto found = open_.find(descriptor);
   if (found == open_.end()) return EBADF;
   FakeCamera& camera = *found->second.camera;
-  if (!camera.plugged) return ENODEV;
+  if (!camera.plugged || found->second.gone) return ENODEV;
   int error = 0;
   if (scripted_error(camera, request, error)) return error;
   return answer(found->second, request, argument);
@@ -241,6 +252,7 @@ int FakeVideo::answer_buffers(Opened& opened, unsigned long request, void* argum
       if (std::find(opened.queued.begin(), opened.queued.end(), buffer.index) != opened.queued.end())
         return EINVAL;
       opened.queued.push_back(buffer.index);
+      opened.no_buffer_yet = false;
       return 0;
     case VIDIOC_DQBUF: {
       run_until(now_ns());
@@ -260,6 +272,7 @@ int FakeVideo::answer_buffers(Opened& opened, unsigned long request, void* argum
       return stream_on(opened);
     case VIDIOC_STREAMOFF:
       opened.streaming = false;
+      opened.no_buffer_yet = true;
       opened.queued.clear();
       opened.filled.clear();
       return 0;
@@ -324,6 +337,7 @@ int FakeVideo::stream_on(Opened& opened) {
   }
   ++camera.starts;
   opened.sequence = 0;
+  opened.stuck = camera.frozen && camera.thaws_at_start;
   const std::int64_t now = now_ns();
   if (camera.keeps_phase) {
     const std::int64_t periods = (now + 1'000'000 - camera.phase_ns) / camera.period_ns + 1;
@@ -339,7 +353,9 @@ void FakeVideo::deliver(Opened& opened) {
   const std::int64_t at = opened.next_ns;
   opened.next_ns += camera.period_ns + camera.period_ns * camera.drift_ppb / 1'000'000'000;
   const std::uint32_t sequence = opened.sequence++;
-  if (camera.frozen || opened.starved || !camera.plugged || opened.queued.empty()) return;
+  opened.stuck = opened.stuck || (camera.frozen && camera.thaws_at_start);
+  const bool silent = camera.frozen || opened.stuck || opened.starved;
+  if (silent || !camera.plugged || opened.gone || opened.queued.empty()) return;
   FakeFrame frame;
   frame.sequence = sequence;
   frame.stamp_ns = at;
@@ -387,7 +403,9 @@ bool FakeVideo::ready(int descriptor, WaitResult& result) {
   if (found == open_.end()) return false;
   int error = 0;
   result.readable = !found->second.filled.empty();
-  result.broken = !found->second.camera->plugged || scripted_error(*found->second.camera, kFakePoll, error);
+  const Opened& opened = found->second;
+  const bool gone = !opened.camera->plugged || opened.gone;
+  result.broken = gone || opened.no_buffer_yet || scripted_error(*opened.camera, kFakePoll, error);
   return result.readable || result.broken;
 }
 

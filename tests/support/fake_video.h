@@ -47,9 +47,11 @@ struct FakeCamera {
   std::string serial;
   std::string card = "Fake Camera";
   std::string bus = "usb-0000:00:14.0-1";
-  bool capture = true;  ///< false: a metadata node
+  std::string function;  ///< two nodes of one have the same; empty: of its own
+  bool capture = true;   ///< false: a metadata node
   bool plugged = true;
   bool frozen = false;
+  bool thaws_at_start = false;  ///< what began or went on while it was frozen stays silent
   std::vector<FakeMode> modes{FakeMode{}};
   std::vector<FakeControl> controls;
 
@@ -101,6 +103,7 @@ class FakeVideo final : public VideoSystem {
 
   std::vector<VideoNode> nodes() override;
   std::string resolve(const std::string& name) override;
+  std::string camera_of(const std::string& node) override;
   std::unique_ptr<Waiter> make_waiter() override;
   int open(const std::string& node, bool convert) override;
   void close(int descriptor) noexcept override;
@@ -118,6 +121,9 @@ class FakeVideo final : public VideoSystem {
     bool convert = false;
     bool streaming = false;
     bool starved = false;
+    bool stuck = false;         // until the stream is started anew
+    bool no_buffer_yet = true;  // was queued since the last stop
+    bool gone = false;          // its camera was unplugged
     std::vector<std::vector<std::uint8_t>> buffers;
     std::deque<std::uint32_t> queued;
     struct Filled {

@@ -2,9 +2,10 @@
 # Tests with a real kernel: Debian's kernel and systemd in a virtual machine, with webcams on uvcvideo. All scenarios run in
 # one machine, one after the other. Says what is skipped where QEMU or the packages cannot be had.
 #
-#   run.sh [--cpu MODEL] [--bin FOLDER] [SCENARIO…]     all scenarios, if none is named
+#   run.sh [--cpu MODEL] [--bin FOLDER] [--seed N] [SCENARIO…]     all scenarios, if none is named
 #
-# --cpu: a CPU model of QEMU, for example Denverton; --bin: take the programs from there instead of building them.
+# --cpu: a CPU model of QEMU, for example Denverton; --bin: take the programs from there instead of building them; --seed: of what
+# scenarios do at random, as an earlier run printed it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 here=tests/vm
@@ -30,6 +31,7 @@ fill_share() {
   local name program package
   rm -rf "$logs"
   mkdir -p "$logs/bin"
+  echo "$seed" >"$logs/seed"
   cp -r "$here/guest" systemd etc "$logs"
   for program in "${programs[@]}"; do cp "$bin/$program" "$logs/bin"; done
   # A package that cpack made of these very programs, for scenarios that install it.
@@ -82,12 +84,14 @@ done
 
 cpu=Denverton  # an Atom: SSE4.2, no AVX
 built=
+seed=$RANDOM  # another each time
 scenarios=()
 while [[ $# -gt 0 ]]; do
   case $1 in
     --cpu) cpu=${2:?--cpu wants a model} && shift ;;
     --bin) bin=${2:?--bin wants a folder} built=yes && shift ;;
-    -*) die "usage: tests/vm/run.sh [--cpu MODEL] [--bin FOLDER] [SCENARIO…]" ;;
+    --seed) seed=${2:?--seed wants a number} && shift ;;
+    -*) die "usage: tests/vm/run.sh [--cpu MODEL] [--bin FOLDER] [--seed N] [SCENARIO…]" ;;
     *) scenarios+=("$1") ;;
   esac
   shift

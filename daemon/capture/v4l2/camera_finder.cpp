@@ -31,7 +31,11 @@ std::optional<CameraFault> find_automatically(VideoSystem& system, Side side, st
                                               std::string& stable_name) {
   std::vector<VideoNode> cameras;
   for (const VideoNode& candidate : system.nodes()) {
-    if (gives_pictures(system, candidate)) cameras.push_back(candidate);
+    const auto is_its = [&](const VideoNode& other) {
+      return system.camera_of(other.node) == system.camera_of(candidate.node);
+    };
+    if (!gives_pictures(system, candidate)) continue;
+    if (std::none_of(cameras.begin(), cameras.end(), is_its)) cameras.push_back(candidate);
   }
   if (cameras.size() < 2) {
     const std::string found = cameras.empty() ? "none is" : "only " + cameras[0].node + " is";

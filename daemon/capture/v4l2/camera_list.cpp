@@ -28,7 +28,8 @@ std::string sizes_of(VideoDevice& device, std::uint32_t pixels) {
     if (!text.empty()) text += ", ";
     text += std::to_string(size.width) + "×" + std::to_string(size.height);
     std::string rates;
-    for (const double fps : device.rates(pixels, size)) rates += (rates.empty() ? " at " : " ") + rate(fps);
+    for (const double fps : device.rates(pixels, size).listed)
+      rates += (rates.empty() ? " at " : " ") + rate(fps);
     text += rates;
   }
   return text.empty() ? "any size" : text;

@@ -64,8 +64,7 @@ std::optional<CameraFault> CameraStream::set_up(const StreamOptions& options) {
   double got = 0;
   if (const int error = device_.set_rate(request.fps, got))
     return fault_of(CameraStep::kSetRate, error, node);
-  facts_.fps = got > 0 ? got : request.fps;
-  facts_.converted = request.convert;
+  if (got > 0) facts_.fps = got;
   return map_buffers(node);
 }
 
@@ -79,8 +78,7 @@ std::optional<CameraFault> CameraStream::choose(const StreamOptions& options, Fo
     if (const int error = device_.offers_size(pixels, options.size, offered))
       return fault_of(CameraStep::kListSizes, error, options.node);
     if (!offered) continue;
-    const std::vector<double> rates = device_.rates(pixels, options.size);
-    offers.push_back({pixels, rates.empty() ? 0 : rates.front()});
+    offers.push_back({pixels, device_.rates(pixels, options.size)});
   }
   const std::vector<FormatRequest> ladder = format_ladder(offers, options.format, options.fps);
   if (ladder.empty()) return no_format(options, offers);
@@ -108,10 +106,13 @@ CameraFault CameraStream::no_format(const StreamOptions& options,
 
 std::optional<CameraFault> CameraStream::agree_on_format(const StreamOptions& options,
                                                          const FormatRequest& request) {
+  // What is asked for, should the answer be that the bus is full.
   facts_.format = {request.pixels, options.size, 0, 0};
+  facts_.pixels = find_pixel_format(request.pixels);
+  facts_.fps = request.fps;
+  facts_.converted = request.convert;
   if (const int error = device_.set_format(facts_.format))
     return fault_of(CameraStep::kSetFormat, error, options.node);
-  facts_.pixels = find_pixel_format(request.pixels);
   if (facts_.format.pixels == request.pixels && facts_.format.size == options.size) return std::nullopt;
   return CameraFault{CameraReason::kOtherFormat, CameraStep::kSetFormat, 0,
                      options.node + " was asked for " + fourcc_name(request.pixels) + " " +

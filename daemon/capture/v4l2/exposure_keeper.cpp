@@ -6,43 +6,41 @@
 
 namespace stereod {
 
-std::string ExposureKeeper::begin(VideoDevice& device, std::int64_t now_ns) {
+void ExposureKeeper::begin(VideoDevice& device, std::int64_t now_ns) {
   CameraControls controls(device);
   if (outdated()) take_controls(controls);
   const ControlValues values = this->values();
-  bool priority_named = false;
-  fixed_by_config_ = false;
+  bool priority_named = false, time_named = false, gain_named = false;
   for (const auto& [name, value] : values) {
     const DeviceControl* control = controls.find(name);
     if (control == nullptr) continue;
     priority_named = priority_named || control->id == V4L2_CID_EXPOSURE_AUTO_PRIORITY;
-    fixed_by_config_ = fixed_by_config_ || control->id == V4L2_CID_EXPOSURE_ABSOLUTE;
+    time_named = time_named || control->id == V4L2_CID_EXPOSURE_ABSOLUTE;
+    gain_named = gain_named || control->id == V4L2_CID_GAIN;
   }
   if (!priority_named && controls.find(V4L2_CID_EXPOSURE_AUTO_PRIORITY) != nullptr) {
     device.set_control(V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0);
   }
-  has_time_ = controls.find(V4L2_CID_EXPOSURE_ABSOLUTE) != nullptr;
-  has_gain_ = controls.find(V4L2_CID_GAIN) != nullptr;
-  has_time_mode_ = controls.find(V4L2_CID_EXPOSURE_AUTO) != nullptr;
-  has_gain_mode_ = controls.find(V4L2_CID_AUTOGAIN) != nullptr;
+  has_time_ = !time_named && controls.find(V4L2_CID_EXPOSURE_ABSOLUTE) != nullptr;
+  has_gain_ = !gain_named && controls.find(V4L2_CID_GAIN) != nullptr;
+  has_time_mode_ = !time_named && controls.find(V4L2_CID_EXPOSURE_AUTO) != nullptr;
+  has_gain_mode_ = !gain_named && controls.find(V4L2_CID_AUTOGAIN) != nullptr;
   applied_.reset();
   manual_ = false;
   told_ = false;
   next_ns_ = now_ns + kPeriod;
   settled_ns_ = now_ns + kSettle;
-  const bool leads = side_ == Side::kLeft && config_.exposure != ExposureMode::kAuto && !fixed_by_config_;
+  const bool leads = side_ == Side::kLeft && config_.exposure != ExposureMode::kAuto;
   const bool settled = config_.exposure == ExposureMode::kLock && pair_.exposure();
   // Whoever had the camera before may have left its automatic modes off.
   if (leads && !settled) {
-    for (const std::uint32_t mode : {V4L2_CID_EXPOSURE_AUTO, V4L2_CID_AUTOGAIN}) {
-      const DeviceControl* control = controls.find(mode);
-      if (control != nullptr) device.set_control(mode, control->preset);
-    }
+    if (has_time_mode_) controls.reset(V4L2_CID_EXPOSURE_AUTO);
+    if (has_gain_mode_) controls.reset(V4L2_CID_AUTOGAIN);
   }
-  const std::string complaints = controls.apply(values);
-  const std::int64_t time = read(device).time.value_or(0);
-  exposure_ns_ = time > 0 ? time * 100'000 : 0;
-  return complaints;
+  complaints_ = controls.apply(values);
+  std::int32_t time = 0;
+  const bool known = device.get_control(V4L2_CID_EXPOSURE_ABSOLUTE, time) == 0 && time > 0;
+  exposure_ns_ = known ? std::int64_t{time} * 100'000 : 0;
 }
 
 // Of both cameras, and what this one has for itself.
@@ -69,7 +67,7 @@ void ExposureKeeper::take_controls(CameraControls& controls) {
 }
 
 bool ExposureKeeper::tick(VideoDevice& device, std::int64_t now_ns) noexcept {
-  if (config_.exposure == ExposureMode::kAuto || fixed_by_config_ || now_ns < next_ns_) return false;
+  if (config_.exposure == ExposureMode::kAuto || now_ns < next_ns_) return false;
   if (!has_time_ && !has_gain_) return false;
   next_ns_ = now_ns + kPeriod;
   const bool lock = config_.exposure == ExposureMode::kLock;
@@ -78,9 +76,14 @@ bool ExposureKeeper::tick(VideoDevice& device, std::int64_t now_ns) noexcept {
     if (!lock || now_ns >= settled_ns_) offer(read(device));
     return false;
   }
-  if (!wanted || (manual_ && applied_ == wanted && got_ == *wanted)) return false;
+  if (!wanted || (manual_ && applied_ == wanted && !differs(*wanted))) return false;
   fix(device, *wanted);
-  return got_ != *wanted && !std::exchange(told_, true);
+  const bool different = differs(*wanted);
+  return std::exchange(told_, different) != different;
+}
+
+bool ExposureKeeper::differs(const ExposureValues& wanted) const noexcept {
+  return (wanted.time && wanted.time != got_.time) || (wanted.gain && wanted.gain != got_.gain);
 }
 
 // What could not be read this time will be the next.
@@ -109,6 +112,11 @@ bool ExposureKeeper::go_manual(VideoDevice& device) noexcept {
   const bool time = !has_time_mode_ || device.set_control(V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL) == 0;
   const bool gain = !has_gain_mode_ || device.set_control(V4L2_CID_AUTOGAIN, 0) == 0;
   return time && gain;
+}
+
+std::string ExposureKeeper::note() const {
+  if (!told_) return complaints_;
+  return complaints_ + (complaints_.empty() ? "" : "; ") + problem();
 }
 
 std::string ExposureKeeper::problem() const {

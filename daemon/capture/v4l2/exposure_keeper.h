@@ -16,9 +16,11 @@ namespace stereod {
 ///   follow  lets the left camera's automation work and copies what comes of it to the right one twice a
 ///   second; lock    lets the left camera's automation work for two seconds, then fixes both cameras to what
 ///   came of it
-///           for good; an exposure named in the configuration is used at once.
-/// The automatic lengthening of frames in dim light (exposure_dynamic_framerate) is switched off unless the
-/// configuration names it, because it halves the rate of one camera when it likes.
+///           for good.
+/// An exposure time or gain that the configuration names for both cameras is used at once and left alone; the
+/// other one of the two is still locked or followed. (For one camera alone it may not be named with these
+/// modes.) The automatic lengthening of frames in dim light (exposure_dynamic_framerate) is switched off
+/// unless the configuration names it, because it halves the rate of one camera when it likes.
 class ExposureKeeper {
  public:
   ExposureKeeper(CameraPair& pair, Side side, const V4l2Config& config)
@@ -28,12 +30,13 @@ class ExposureKeeper {
   bool outdated() const noexcept { return controls_number_ != pair_.controls_number(); }
 
   /// Sets a camera up that was just opened, or whose controls have changed: what the configuration names no
-  /// more goes back to the camera's preset. What did not take, in words.
-  std::string begin(VideoDevice& device, std::int64_t now_ns);
+  /// more goes back to the camera's preset. note() then says what did not take.
+  void begin(VideoDevice& device, std::int64_t now_ns);
 
-  /// Does what is due, between two frames. Allocates nothing. True if a value did not take: see problem().
+  /// Does what is due, between two frames. Allocates nothing. True if note() has changed.
   bool tick(VideoDevice& device, std::int64_t now_ns) noexcept;
-  std::string problem() const;
+  /// What does not take now, in words.
+  std::string note() const;
 
   /// The exposure time as it was at begin(), ns; 0 if the camera does not say.
   std::int64_t exposure_ns() const noexcept { return exposure_ns_; }
@@ -48,20 +51,23 @@ class ExposureKeeper {
   void fix(VideoDevice& device, const ExposureValues& values) noexcept;
   void offer(const ExposureValues& values) noexcept;
   bool go_manual(VideoDevice& device) noexcept;
+  bool differs(const ExposureValues& wanted) const noexcept;
+  std::string problem() const;
 
   CameraPair& pair_;
   const Side side_;
   V4l2Config config_;
   int controls_number_ = 0;
+  // What it has and the configuration does not name.
   bool has_time_ = false, has_gain_ = false, has_time_mode_ = false, has_gain_mode_ = false;
-  bool fixed_by_config_ = false;
+  std::string complaints_;  // of begin()
   std::int64_t next_ns_ = 0;
   std::int64_t settled_ns_ = 0;
   std::int64_t exposure_ns_ = 0;
   std::optional<ExposureValues> applied_;
   ExposureValues got_;
   bool manual_ = false;  // the automatic modes have been switched off
-  bool told_ = false;
+  bool told_ = false;    // of a difference, which is still there
 };
 
 }  // namespace stereod

@@ -12,7 +12,9 @@ namespace stereod {
 /// A format that a camera offers at the wanted size.
 struct OfferedFormat {
   std::uint32_t pixels = 0;
-  double fastest = 0;  ///< frames a second it can give; 0: it does not say
+  OfferedRates rates;
+  /// 0: it does not say.
+  double fastest() const { return rates.listed.empty() ? 0 : rates.listed.front(); }
 };
 
 struct FormatRequest {
@@ -22,9 +24,10 @@ struct FormatRequest {
 };
 
 /// Every request worth trying, the best first. `name`: auto or a format's name. For auto: the uncompressed
-/// format that puts the least on the bus, then MJPEG, then a half and a quarter of the rate (not below 5 a
-/// second); a format that reaches the rate comes before one that does not. What is not read here goes through
-/// libv4l2, after all others. For a name there is one request. Empty: nothing fits.
+/// format that puts the least on the bus, then MJPEG, then two lower rates that it offers, each by a third or
+/// more lower than the one before (a half and a quarter, where it offers any) and none below 5 a second; a
+/// format that reaches the rate comes before one that does not. What is not read here goes through libv4l2,
+/// after all others. For a name there is one request. Empty: nothing fits.
 std::vector<FormatRequest> format_ladder(const std::vector<OfferedFormat>& offers, const std::string& name,
                                          double fps);
 

@@ -161,23 +161,35 @@ class KernelVideoSystem final : public VideoSystem {
     return error ? std::string() : node.string();
   }
 
+  std::string camera_of(const std::string& node) override {
+    // The USB interface that controls the function: every node of it hangs on that one.
+    const fs::path device = "/sys/class/video4linux/" + fs::path(node).filename().string() + "/device";
+    std::error_code error;
+    const fs::path subsystem = fs::canonical(device / "subsystem", error);
+    if (error || subsystem.filename() != "usb") return node;
+    const fs::path interface = fs::canonical(device, error);
+    return error ? node : interface.string();
+  }
+
   std::unique_ptr<Waiter> make_waiter() override { return std::make_unique<KernelWaiter>(); }
 
   int open(const std::string& node, bool convert) override {
     const int descriptor = ::open(node.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) return -errno;
-    if (convert && v4l2_fd_open(descriptor, 0) < 0) {
-      const int error = errno;
+    if (!convert) return descriptor;
+    const bool countable = static_cast<std::size_t>(descriptor) < converted_.size();
+    if (!countable || v4l2_fd_open(descriptor, 0) < 0) {
+      const int error = countable ? errno : EMFILE;
       ::close(descriptor);
       return -error;
     }
-    if (convert) converted(descriptor) = true;
+    converted_[static_cast<std::size_t>(descriptor)] = true;
     return descriptor;
   }
 
   void close(int descriptor) noexcept override {
-    if (converted(descriptor)) {
-      converted(descriptor) = false;
+    if (is_converted(descriptor)) {
+      converted_[static_cast<std::size_t>(descriptor)] = false;
       v4l2_close(descriptor);
     } else {
       ::close(descriptor);
@@ -187,15 +199,15 @@ class KernelVideoSystem final : public VideoSystem {
   int ioctl(int descriptor, unsigned long request, void* argument) noexcept override {
     int result = 0;
     do {
-      result = converted(descriptor) ? v4l2_ioctl(descriptor, request, argument)
-                                     : ::ioctl(descriptor, request, argument);
+      result = is_converted(descriptor) ? v4l2_ioctl(descriptor, request, argument)
+                                        : ::ioctl(descriptor, request, argument);
     } while (result < 0 && errno == EINTR);
     return result < 0 ? errno : 0;
   }
 
   void* map(int descriptor, std::size_t length, std::int64_t offset, int& error) noexcept override {
     // libv4l2 writes what it converted into its mappings, and wants to be asked for both rights.
-    void* memory = converted(descriptor)
+    void* memory = is_converted(descriptor)
                        ? v4l2_mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, offset)
                        : mmap(nullptr, length, PROT_READ, MAP_SHARED, descriptor, offset);
     if (memory != MAP_FAILED) return memory;
@@ -219,9 +231,10 @@ class KernelVideoSystem final : public VideoSystem {
   }
 
  private:
-  // Which descriptors go through libv4l2. Descriptors are small numbers; one past the end is not converted.
-  std::atomic<bool>& converted(int descriptor) noexcept {
-    return converted_[static_cast<std::size_t>(descriptor) % converted_.size()];
+  // Which descriptors go through libv4l2: small numbers; open() refuses one past the end.
+  bool is_converted(int descriptor) const noexcept {
+    const auto place = static_cast<std::size_t>(descriptor);
+    return place < converted_.size() && converted_[place];
   }
 
   std::array<std::atomic<bool>, 1024> converted_{};

@@ -1,47 +1,113 @@
 #include "daemon/capture/v4l2/luma_decoder.h"
 
-#include <turbojpeg.h>
+// jpeglib.h wants FILE and size_t before it.
+#include <cstdio>
+
+#include <jerror.h>
+#include <jpeglib.h>
 
 #include <algorithm>
-#include <cstring>
+#include <csetjmp>
 #include <new>
+#include <utility>
 
 namespace stereod {
+
+// libjpeg reports an error by a function that must not return. It leaves by longjmp and not by an exception:
+// on some machines libjpeg is built without the tables that an exception needs to pass through C. Between
+// setjmp and longjmp lie only libjpeg's functions and variables without destructors, so nothing is left out.
+struct JpegLumaDecoder::Libjpeg {
+  jpeg_decompress_struct info{};
+  jpeg_error_mgr errors{};
+  std::jmp_buf failed{};
+  bool created = false;
+  bool damaged = false;
+
+  Libjpeg() noexcept;
+  ~Libjpeg() { jpeg_destroy_decompress(&info); }
+  Libjpeg(const Libjpeg&) = delete;
+  Libjpeg& operator=(const Libjpeg&) = delete;
+};
+
 namespace {
 
-// Whether the picture is cut into pieces by restart markers: a segment DRI before the scan.
-bool has_restarts(std::span<const std::uint8_t> jpeg) noexcept {
-  constexpr std::uint8_t kRestartInterval = 0xdd, kScan = 0xda;
-  for (std::size_t at = 2; at + 4 <= jpeg.size() && jpeg[at] == 0xff && jpeg[at + 1] != kScan;) {
-    if (jpeg[at + 1] == kRestartInterval) return true;
-    at += 2 + (static_cast<std::size_t>(jpeg[at + 2]) << 8 | jpeg[at + 3]);
-  }
-  return false;
+JpegLumaDecoder::Libjpeg& self(j_common_ptr info) {
+  return *static_cast<JpegLumaDecoder::Libjpeg*>(info->client_data);
 }
 
-// Some webcams put a few bytes too many before the end of every picture. libjpeg warns of that as of real
-// damage, and keeps the first warning; if that is this one, it came after the whole picture, unless the end
-// was found in a search for a restart marker.
-bool only_too_long(tjhandle turbojpeg, std::span<const std::uint8_t> jpeg) noexcept {
-  return tjGetErrorCode(turbojpeg) == TJERR_WARNING &&
-         std::strstr(tjGetErrorStr2(turbojpeg), "extraneous bytes before marker 0xd9") != nullptr &&
-         !has_restarts(jpeg);
+[[noreturn]] void leave(j_common_ptr info) { std::longjmp(self(info).failed, 1); }
+
+// What libjpeg warns of though the picture is whole. Some webcams put a few bytes too many before the end of
+// a picture, or before a restart marker in it: all that was wanted had been decoded by then, for data that
+// end too soon, and markers that are missing, have warnings of their own.
+bool is_harmless(const jpeg_error_mgr& errors) {
+  if (errors.msg_code == JWRN_JFIF_MAJOR) return true;  // a number in the header that nothing depends on
+  const int marker = errors.msg_parm.i[1];
+  return errors.msg_code == JWRN_EXTRANEOUS_DATA &&
+         (marker == JPEG_EOI || (marker >= JPEG_RST0 && marker <= JPEG_RST0 + 7));
+}
+
+void take_message(j_common_ptr info, int level) {
+  if (level < 0 && !is_harmless(*info->err)) self(info).damaged = true;
+}
+
+void print_nothing(j_common_ptr) {}
+
+bool is_luma_first(J_COLOR_SPACE space) { return space == JCS_YCbCr || space == JCS_GRAYSCALE; }
+
+// Reads the header. A camera's picture has one scan; more could keep this thread busy for as long as they
+// like.
+bool read_header(JpegLumaDecoder::Libjpeg& jpeg, std::span<const std::uint8_t> bytes) noexcept {
+  if (setjmp(jpeg.failed) != 0) return false;
+  jpeg_mem_src(&jpeg.info, bytes.data(), static_cast<unsigned long>(bytes.size()));
+  return jpeg_read_header(&jpeg.info, TRUE) == JPEG_HEADER_OK && !jpeg.damaged &&
+         is_luma_first(jpeg.info.jpeg_color_space) && jpeg_has_multiple_scans(&jpeg.info) == FALSE;
+}
+
+// Stops at the first damage.
+bool read_luma(JpegLumaDecoder::Libjpeg& jpeg, ImageView<std::uint8_t> luma) noexcept {
+  if (setjmp(jpeg.failed) != 0) return false;
+  jpeg.info.out_color_space = JCS_GRAYSCALE;  // so the chroma is not even transformed
+  jpeg_start_decompress(&jpeg.info);
+  constexpr JDIMENSION kRows = 8;
+  const auto height = static_cast<JDIMENSION>(luma.height());
+  while (jpeg.info.output_scanline < height && !jpeg.damaged) {
+    JSAMPROW rows[kRows];
+    const JDIMENSION first = jpeg.info.output_scanline, count = std::min(kRows, height - first);
+    for (JDIMENSION i = 0; i < count; ++i) rows[i] = luma.row(static_cast<int>(first + i));
+    jpeg_read_scanlines(&jpeg.info, rows, count);
+  }
+  if (!jpeg.damaged) jpeg_finish_decompress(&jpeg.info);  // looks for the end of the file too
+  return !jpeg.damaged;
 }
 
 }  // namespace
 
-JpegLumaDecoder::JpegLumaDecoder() : turbojpeg_(tjInitDecompress()) {
-  if (turbojpeg_ == nullptr) throw std::bad_alloc();
+JpegLumaDecoder::Libjpeg::Libjpeg() noexcept {
+  info.err = jpeg_std_error(&errors);
+  info.client_data = this;
+  errors.error_exit = leave;
+  errors.emit_message = take_message;
+  errors.output_message = print_nothing;
+  if (setjmp(failed) != 0) return;  // no memory
+  jpeg_create_decompress(&info);
+  created = true;
 }
 
-JpegLumaDecoder::~JpegLumaDecoder() { tjDestroy(turbojpeg_); }
+JpegLumaDecoder::JpegLumaDecoder() : jpeg_(std::make_unique<Libjpeg>()) {
+  if (!jpeg_->created) throw std::bad_alloc();
+}
+
+JpegLumaDecoder::~JpegLumaDecoder() = default;
 
 // libjpeg keeps the Huffman tables it has seen, so a damaged picture could spoil all those after it that
 // bring none of their own.
 void JpegLumaDecoder::start_anew() noexcept {
-  if (void* fresh = tjInitDecompress()) {
-    tjDestroy(turbojpeg_);
-    turbojpeg_ = fresh;
+  std::unique_ptr<Libjpeg> fresh(new (std::nothrow) Libjpeg);
+  if (fresh != nullptr && fresh->created) {
+    jpeg_ = std::move(fresh);
+  } else {
+    jpeg_abort_decompress(&jpeg_->info);
   }
 }
 
@@ -51,23 +117,19 @@ bool JpegLumaDecoder::decode(std::span<const std::uint8_t> jpeg, ImageView<std::
     drop = FrameDrop::kNoJpeg;
     return false;
   }
-  const auto length = static_cast<unsigned long>(jpeg.size());
-  int width = 0, height = 0, subsampling = 0, colorspace = 0;
-  if (tjDecompressHeader3(turbojpeg_, jpeg.data(), length, &width, &height, &subsampling, &colorspace) != 0 ||
-      (colorspace != TJCS_YCbCr && colorspace != TJCS_GRAY)) {
+  jpeg_->damaged = false;
+  if (!read_header(*jpeg_, jpeg)) {
     drop = FrameDrop::kJpegDamaged;
     start_anew();
     return false;
   }
-  if (Size{width, height} != luma.size()) {
+  const auto width = static_cast<JDIMENSION>(luma.width()), height = static_cast<JDIMENSION>(luma.height());
+  if (jpeg_->info.image_width != width || jpeg_->info.image_height != height) {
     drop = FrameDrop::kJpegSize;
+    jpeg_abort_decompress(&jpeg_->info);
     return false;
   }
-  // A progressive JPEG can have thousands of scans that decode to nothing; a camera's has one.
-  constexpr int kFlags = TJFLAG_LIMITSCANS;
-  const int status = tjDecompress2(turbojpeg_, jpeg.data(), length, luma.row(0), width,
-                                   static_cast<int>(luma.stride()), height, TJPF_GRAY, kFlags);
-  if (status != 0 && !only_too_long(turbojpeg_, jpeg)) {
+  if (!read_luma(*jpeg_, luma)) {
     drop = FrameDrop::kJpegDamaged;
     start_anew();
     return false;

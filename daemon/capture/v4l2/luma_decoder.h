@@ -10,10 +10,12 @@
 
 namespace stereod {
 
-/// Decodes JPEGs to luma; one for each camera's thread. Allocates nothing itself; libjpeg-turbo takes a few
-/// blocks for each picture and gives them back (docs/cameras.md).
+/// Decodes JPEGs to luma; one for each camera's thread. Allocates nothing itself; libjpeg takes a few blocks
+/// for each picture and gives them back (docs/cameras.md).
 class JpegLumaDecoder {
  public:
+  struct Libjpeg;
+
   /// Throws std::bad_alloc.
   JpegLumaDecoder();
   ~JpegLumaDecoder();
@@ -22,14 +24,15 @@ class JpegLumaDecoder {
 
   /// Decodes a JPEG of just the size of `luma`. JPEGs without Huffman tables, as UVC cameras send them, get
   /// the standard ones. A header of another size is refused before anything is decoded; a truncated picture,
-  /// which libjpeg would fill up with grey, after. Bytes too many before the end of
-  /// a picture do not matter. False: `drop` says why, and the picture is undefined.
+  /// which libjpeg would fill up with grey, after; pictures in several scans are
+  /// taken for damaged. Bytes too many before the end or before a restart marker do not matter. False: `drop`
+  /// says why, and the picture is undefined.
   bool decode(std::span<const std::uint8_t> jpeg, ImageView<std::uint8_t> luma, FrameDrop& drop) noexcept;
 
  private:
   void start_anew() noexcept;
 
-  void* turbojpeg_;
+  std::unique_ptr<Libjpeg> jpeg_;
 };
 
 /// 16-bit little-endian words with 10 significant bits to 8-bit luma. `words` has rows of `stride` bytes, as

@@ -12,9 +12,12 @@ namespace stereod {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kRetry = kSecond / 2;       // after a failure
-constexpr std::int64_t kLookAgain = kSecond;       // for an absent camera, should an event be missed
-constexpr std::int64_t kFirstFrame = 3 * kSecond;  // webcams take a second or two to start
+constexpr std::int64_t kRetry = kSecond / 2;  // after a failure
+constexpr std::int64_t kLookAgain = kSecond;  // for an absent camera, should an event be missed
+// Until a frame comes after a start: webcams may take two seconds when they have just been plugged in, and
+// most are faster after that. Once a camera has shown how long it takes it is not waited for much longer, so
+// that one that needs a new start to come to itself gets it soon.
+constexpr std::int64_t kColdStart = 3 * kSecond;
 constexpr std::int64_t kSilence = kSecond;
 constexpr std::int64_t kLoanCheck = kSecond / 100;
 constexpr std::int64_t kStopTime = kSecond / 500;  // a stopped stream can be started after that
@@ -45,10 +48,19 @@ FrameLease V4l2Camera::next(std::chrono::milliseconds timeout) noexcept {
     try {
       if (FrameLease lease = step(until_ns)) return lease;
     } catch (const std::exception& error) {  // no memory for a list of formats, say
-      fail(CameraState::kLost, {CameraReason::kNoMemory, CameraStep::kOpen, 0, error.what()});
+      out_of_memory(error);
     }
   } while (system_.now_ns() < until_ns);
   return {};
+}
+
+// Where there is no memory a sentence may fail too; the next round tries again after a pause.
+void V4l2Camera::out_of_memory(const std::exception& error) noexcept {
+  try {
+    fail(CameraState::kLost, {CameraReason::kNoMemory, CameraStep::kOpen, 0, error.what()});
+  } catch (const std::exception&) {
+    state_ = CameraState::kLost;
+  }
 }
 
 FrameLease V4l2Camera::step(std::int64_t until_ns) {
@@ -78,17 +90,28 @@ void V4l2Camera::wait_for_device(std::int64_t until_ns) {
 void V4l2Camera::open() {
   std::optional<CameraFault> fault = find_and_open();
   if (!fault) {
-    set_note(exposure_.begin(stream_.device(), system_.now_ns()));
+    exposure_.begin(stream_.device(), system_.now_ns());
+    set_note(exposure_.note());
     pair_->started(side_, system_.now_ns());
     fault = stream_.start(exposure_.exposure_ns());
-    if (fault && fault->reason == CameraReason::kNoBandwidth) no_bandwidth(*fault);
   }
   if (!fault) {
     opened();
     return;
   }
+  if (fault->reason == CameraReason::kSameCamera && wait_for_other()) return;
+  if (fault->reason == CameraReason::kNoBandwidth) no_bandwidth(*fault);
   const bool absent = fault->step == CameraStep::kFind || fault->reason == CameraReason::kUnplugged;
   fail(absent ? CameraState::kAbsent : CameraState::kOpening, std::move(*fault));
+}
+
+// After ports were swapped the other camera may not have noticed yet that it lost what is found here.
+bool V4l2Camera::wait_for_other() {
+  const std::int64_t now_ns = system_.now_ns();
+  if (refused_ns_ == 0) refused_ns_ = now_ns;
+  if (now_ns - refused_ns_ >= kRetry) return false;
+  retry_ns_ = now_ns + kRetry / 10;
+  return true;
 }
 
 std::optional<CameraFault> V4l2Camera::find_and_open() {
@@ -103,24 +126,23 @@ std::optional<CameraFault> V4l2Camera::find_and_open() {
     }
     return fault;
   }
-  if (!pair_->take_device(side_, node_)) {
+  if (!pair_->take_device(side_, system_.camera_of(node_))) {
     return CameraFault{CameraReason::kSameCamera, CameraStep::kFind, 0,
-                       "left and right are both " + node_ + "; name two cameras in cameras.v4l2"};
+                       node_ + " belongs to the camera that is the " + side_name(opposite(side_)) +
+                           " one; name two cameras in cameras.v4l2"};
   }
+  refused_ns_ = 0;
   ladder_step_ = pair_->ladder_step();
   StreamOptions options{node_, size_, config_.fps, config_.v4l2.format, ladder_step_};
   std::optional<CameraFault> fault = stream_.open(options);
   pair_->set_facts(side_, stream_.facts());
-  if (fault && fault->reason == CameraReason::kNoBandwidth) no_bandwidth(*fault);
   if (!fault) name_ = stable_name;
   return fault;
 }
 
 void V4l2Camera::opened() {
   phase_ = Phase::kFlowing;
-  last_good_ns_ = system_.now_ns();
-  buffers_at_last_good_ = 0;
-  had_frame_ = false;
+  started();
   const StreamFacts& facts = stream_.facts();
   frame_time_ns_ = facts.fps > 0 ? static_cast<std::int64_t>(1e9 / facts.fps) : 0;
   const std::lock_guard lock(mutex_);
@@ -128,6 +150,12 @@ void V4l2Camera::opened() {
   format_ = describe(facts);
   // A wedged or lost camera is that until a frame comes.
   if (state_ == CameraState::kAbsent) state_ = CameraState::kOpening;
+}
+
+void V4l2Camera::started() {
+  last_good_ns_ = system_.now_ns();
+  buffers_at_last_good_ = 0;
+  had_frame_ = false;
 }
 
 FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
@@ -156,12 +184,14 @@ FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
     if (nothing) waiter_->wait(-1, std::chrono::milliseconds(1));  // a driver that calls for nothing
     if (error != 0) {
       lease.end();
-      fail(CameraState::kLost, fault_of(at, error, node_));
+      lose(fault_of(at, error, node_));
       return {};
     }
   }
   if (lease) {
-    last_good_ns_ = system_.now_ns();
+    const std::int64_t now_ns = system_.now_ns();
+    if (!had_frame_) longest_start_ns_ = std::max(longest_start_ns_, now_ns - last_good_ns_);
+    last_good_ns_ = now_ns;
     buffers_at_last_good_ = stream_.buffers_seen();
     if (state_ != CameraState::kStreaming) streaming();
     had_frame_ = true;
@@ -191,28 +221,28 @@ void V4l2Camera::restart_in_phase() {
   system_.sleep_until(start_ns);
   pair_->started(side_, system_.now_ns());
   if (auto fault = stream_.start(exposure_.exposure_ns())) {
-    fail(CameraState::kLost, std::move(*fault));
+    lose(std::move(*fault));
     return;
   }
-  had_frame_ = false;
-  last_good_ns_ = system_.now_ns();
-  buffers_at_last_good_ = 0;
+  started();
 }
 
 // Between two frames, when nothing waits.
 void V4l2Camera::keep_exposure() {
   if (exposure_.outdated()) {
-    set_note(exposure_.begin(stream_.device(), system_.now_ns()));
+    exposure_.begin(stream_.device(), system_.now_ns());
+    set_note(exposure_.note());
     return;
   }
-  if (exposure_.tick(stream_.device(), system_.now_ns())) set_note(exposure_.problem());
+  if (exposure_.tick(stream_.device(), system_.now_ns())) set_note(exposure_.note());
 }
 
 void V4l2Camera::set_note(const std::string& note) {
   const std::lock_guard lock(mutex_);
   if (note == note_) return;
+  const bool said = note_.find(note) != note_.npos;  // a part of it may have been withdrawn
   note_ = note;
-  if (!note.empty()) log_(LogLevel::kWarning, "the " + side_name(side_) + " camera: " + note);
+  if (!said) log_(LogLevel::kWarning, "the " + side_name(side_) + " camera: " + note);
 }
 
 // The first frame, or the first again.
@@ -232,8 +262,9 @@ void V4l2Camera::streaming() {
 }
 
 std::int64_t V4l2Camera::patience_ns() const noexcept {
-  const std::int64_t least = had_frame_ ? kSilence : kFirstFrame;
-  return std::max(least, 4 * frame_time_ns_.load());
+  if (!had_frame_ && longest_start_ns_ == 0) return std::max(kColdStart, 4 * frame_time_ns_.load());
+  const std::int64_t start_ns = had_frame_ ? 0 : longest_start_ns_ + longest_start_ns_ / 2;
+  return std::max({kSilence, std::min(start_ns, kColdStart), 4 * frame_time_ns_.load()});
 }
 
 void V4l2Camera::check_silence(std::int64_t now_ns) {
@@ -265,11 +296,20 @@ void V4l2Camera::no_bandwidth(CameraFault& fault) {
   silent_starts_ = 0;
 }
 
+// A stream that failed.
+void V4l2Camera::lose(CameraFault fault) {
+  if (fault.reason == CameraReason::kNoBandwidth) no_bandwidth(fault);
+  fail(CameraState::kLost, std::move(fault));
+}
+
 void V4l2Camera::fail(CameraState state, CameraFault fault) {
   const bool look_again = fault.step == CameraStep::kFind || fault.reason == CameraReason::kUnplugged;
   stream_.stop();
   pair_->set_flowing(side_, false);
   pair_->stopped(side_);
+  // What is lost or gone may be plugged in again as the other camera.
+  if (state == CameraState::kLost || state == CameraState::kAbsent) pair_->release_device(side_);
+  if (look_again) longest_start_ns_ = 0;  // the next may be another camera, or a cold one
   restart_wanted_ = false;
   phase_ = Phase::kClosing;
   retry_ns_ = system_.now_ns() + (look_again ? kLookAgain : kRetry);

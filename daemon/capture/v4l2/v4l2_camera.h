@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -44,12 +45,16 @@ class V4l2Camera final : public FrameSource {
   void wait_for_device(std::int64_t until_ns);
   void open();
   void opened();
+  void started();
+  bool wait_for_other();
   std::optional<CameraFault> find_and_open();
   FrameLease fetch(std::int64_t until_ns);
   void streaming();
   void check_silence(std::int64_t now_ns);
   void finish_closing(std::int64_t until_ns);
+  void lose(CameraFault fault);
   void fail(CameraState state, CameraFault fault);
+  void out_of_memory(const std::exception& error) noexcept;
   void no_bandwidth(CameraFault& fault);
   void change_format();
   void restart_in_phase();
@@ -74,12 +79,15 @@ class V4l2Camera final : public FrameSource {
   std::string name_;  // what to look for
   std::string node_;  // what it was found as
   int ladder_step_ = 0;
-  std::int64_t retry_ns_ = 0;  // when to look again
+  std::int64_t retry_ns_ = 0;    // when to look again
+  std::int64_t refused_ns_ = 0;  // since when the other camera has what this one is to be; 0: it has not
   std::int64_t last_good_ns_ = 0;
   std::int64_t buffers_at_last_good_ = 0;
   bool had_frame_ = false;       // since it was opened
   bool restart_wanted_ = false;  // to bring it into phase with the other camera
-  int silent_starts_ = 0;        // how often it was opened in vain while the other camera had the bus
+  std::int64_t longest_start_ns_ =
+      0;                   // from a start to its first frame, since it was plugged in; 0: none came
+  int silent_starts_ = 0;  // how often it was opened in vain while the other camera had the bus
   std::atomic<std::int64_t> frame_time_ns_{0};
 
   mutable std::mutex mutex_;  // guards what follows, for report()

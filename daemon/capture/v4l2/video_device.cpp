@@ -141,8 +141,8 @@ std::vector<Size> VideoDevice::sizes(std::uint32_t pixels) {
   return sizes;
 }
 
-std::vector<double> VideoDevice::rates(std::uint32_t pixels, Size size) {
-  std::vector<double> rates;
+OfferedRates VideoDevice::rates(std::uint32_t pixels, Size size) {
+  OfferedRates rates;
   for (std::uint32_t i = 0; i < kLongestList; ++i) {
     v4l2_frmivalenum answer{};
     answer.index = i;
@@ -151,14 +151,14 @@ std::vector<double> VideoDevice::rates(std::uint32_t pixels, Size size) {
     answer.height = static_cast<std::uint32_t>(size.height);
     if (request(VIDIOC_ENUM_FRAMEINTERVALS, &answer) != 0) break;
     if (answer.type == V4L2_FRMIVAL_TYPE_DISCRETE) {
-      rates.push_back(rate_of(answer.discrete));
+      rates.listed.push_back(rate_of(answer.discrete));
     } else {
-      rates.push_back(rate_of(answer.stepwise.min));
-      rates.push_back(rate_of(answer.stepwise.max));
+      rates.listed = {rate_of(answer.stepwise.min), rate_of(answer.stepwise.max)};
+      rates.range = true;
       break;
     }
   }
-  std::sort(rates.begin(), rates.end(), std::greater<>());
+  std::sort(rates.listed.begin(), rates.listed.end(), std::greater<>());
   return rates;
 }
 

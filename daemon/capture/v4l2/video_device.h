@@ -56,6 +56,12 @@ struct DeviceControl {
   bool writable = true;
 };
 
+/// Frames a second.
+struct OfferedRates {
+  std::vector<double> listed;  ///< fastest first; empty: it does not say
+  bool range = false;          ///< two are listed, and what lies between is offered too
+};
+
 /// Owns the descriptor. Calls return 0 or an errno value; those on the per-frame path (queue, dequeue, wait)
 /// allocate nothing.
 class VideoDevice {
@@ -78,8 +84,8 @@ class VideoDevice {
   int offers_size(std::uint32_t pixels, Size size, bool& offered);
   /// Every size it lists for a format; for a range, its ends.
   std::vector<Size> sizes(std::uint32_t pixels);
-  /// The frame rates it lists, fastest first; for a range, its ends. Empty: it does not say.
-  std::vector<double> rates(std::uint32_t pixels, Size size);
+  /// The frame rates it lists.
+  OfferedRates rates(std::uint32_t pixels, Size size);
 
   /// Asks for a format and tells which one the driver made of it.
   int set_format(DeviceFormat& format);

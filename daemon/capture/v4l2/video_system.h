@@ -47,6 +47,10 @@ class VideoSystem {
   virtual std::vector<VideoNode> nodes() = 0;
   /// The node that a name below /dev stands for now, its links followed; empty if there is none.
   virtual std::string resolve(const std::string& name) = 0;
+  /// What tells one camera from another: the same for two nodes of one USB video function, which share a
+  /// sensor. Two functions of one device are two cameras; a stereo webcam has those. The node itself for what
+  /// is not on USB.
+  virtual std::string camera_of(const std::string& node) = 0;
   virtual std::unique_ptr<Waiter> make_waiter() = 0;
 
   /// Opens a node without blocking; a descriptor, or minus an errno value. `convert`: through libv4l2, which
