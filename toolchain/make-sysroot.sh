@@ -26,22 +26,38 @@ command -v mmdebstrap >/dev/null || die "no mmdebstrap here: apt install mmdebst
 packages=libc6-dev,libstdc++-12-dev,liblcm-dev,libv4l-dev,libyaml-cpp-dev,libspdlog-dev,libcli11-dev
 packages+=,libturbojpeg0-dev,libpng-dev,libsystemd-dev,libgtest-dev,libgmock-dev,libcpp-httplib-dev
 
-# Only sources that name Debian 12 itself as a suite: others need not have the architecture, nor may their packages get in.
-sources=()
-for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/sources.list.d/*.list; do
-  if [[ -s $file ]] && grep -qE '^(deb|Suites:)(.*[[:space:]])bookworm([[:space:]-]|$)' "$file"; then
-    sources+=("$file")
-  fi
-done
-[[ ${#sources[@]} -gt 0 ]] || die "no apt sources of Debian 12 in /etc/apt."
-
+# Of this machine's sources only Debian 12 itself, without its updates: others need not have the architecture, nor may their
+# packages get in, and what is built against a release's libraries runs with their updates too.
+release_sources() {
+  local file
+  for file in /etc/apt/sources.list.d/*.sources; do
+    [[ ! -s $file ]] || awk -v RS= '{
+      release = 0
+      count = split($0, lines, "\n")
+      for (i = 1; i <= count; ++i) if (lines[i] ~ /^Suites:(.*[ \t])?bookworm([ \t]|$)/) { release = 1; lines[i] = "Suites: bookworm" }
+      if (release) { for (i = 1; i <= count; ++i) if (lines[i] !~ /^(#|Architectures:)/) print lines[i]; print "" }
+    }' "$file"
+  done
+}
+# The same of the older form, one line for each source.
+release_lines() {
+  local file
+  for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
+    [[ ! -s $file ]] || grep -E '^deb[[:space:]]([^#]*[[:space:]])?bookworm[[:space:]]' "$file" || true
+  done
+}
 mkdir -p "$sysroots"
+sources=$sysroots/$arch.sources
+release_sources >"$sources"
+[[ -s $sources ]] || release_lines >"$sources"
+[[ -s $sources ]] || die "no apt sources of Debian 12 in /etc/apt."
+
 rm -rf "$sysroot"
 log=$sysroots/$arch.log
 mmdebstrap --variant=extract --architectures="$arch" --include="$packages" \
   --dpkgopt='path-exclude=/usr/share/man/*' --dpkgopt='path-exclude=/usr/share/locale/*' \
   --extract-hook="mkdir -p '$sysroot.debs' && cp \"\$1\"/var/cache/apt/archives/*.deb '$sysroot.debs'" \
-  bookworm "$sysroot" "${sources[@]}" >"$log" 2>&1 || die "mmdebstrap failed; see $log"
+  bookworm "$sysroot" "$sources" >"$log" 2>&1 || die "mmdebstrap failed; see $log"
 
 # Links that start at the root would lead out of the sysroot.
 find "$sysroot" -xtype l -lname '/*' | while read -r link; do
@@ -68,5 +84,6 @@ for deb in "$sysroot.debs"/*.deb; do
   rm -rf "$control"
 done
 rm -rf "$sysroot.debs"
+rm "$sources"
 touch "$sysroot/.complete"
 echo "$sysroot"
