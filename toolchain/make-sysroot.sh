@@ -26,32 +26,9 @@ command -v mmdebstrap >/dev/null || die "no mmdebstrap here: apt install mmdebst
 packages=libc6-dev,libstdc++-12-dev,liblcm-dev,libv4l-dev,libyaml-cpp-dev,libspdlog-dev,libcli11-dev
 packages+=,libturbojpeg0-dev,libpng-dev,libsystemd-dev,libgtest-dev,libgmock-dev,libcpp-httplib-dev
 
-# Of this machine's sources only Debian 12 itself, without its updates: others need not have the architecture, nor may their
-# packages get in, and what is built against a release's libraries runs with their updates too.
-release_sources() {
-  local file
-  for file in /etc/apt/sources.list.d/*.sources; do
-    [[ ! -s $file ]] || awk -v RS= '{
-      release = 0
-      count = split($0, lines, "\n")
-      for (i = 1; i <= count; ++i) if (lines[i] ~ /^Suites:(.*[ \t])?bookworm([ \t]|$)/) { release = 1; lines[i] = "Suites: bookworm" }
-      if (release) { for (i = 1; i <= count; ++i) if (lines[i] !~ /^(#|Architectures:)/) print lines[i]; print "" }
-    }' "$file"
-  done
-}
-# The same of the older form, one line for each source.
-release_lines() {
-  local file
-  for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
-    [[ ! -s $file ]] || grep -E '^deb[[:space:]]([^#]*[[:space:]])?bookworm[[:space:]]' "$file" || true
-  done
-}
 mkdir -p "$sysroots"
 sources=$sysroots/$arch.sources
-release_sources >"$sources"
-[[ -s $sources ]] || release_lines >"$sources"
-[[ -s $sources ]] || die "no apt sources of Debian 12 in /etc/apt."
-
+"$(dirname "${BASH_SOURCE[0]}")/apt-sources.sh" >"$sources" || die "no apt sources of Debian 12 in /etc/apt."
 rm -rf "$sysroot"
 log=$sysroots/$arch.log
 mmdebstrap --variant=extract --architectures="$arch" --include="$packages" \

@@ -20,18 +20,6 @@ std::string content_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// What starts a program that was built beside the tests: the emulator that runs the tests themselves, if they are
-// foreign to this machine. Others, such as the system's tools, start as they are.
-std::vector<std::string> starter_of(const std::filesystem::path& program) {
-  std::vector<std::string> words;
-  if (program.parent_path() == STEREOD_BIN_DIR) {
-    std::istringstream emulator(STEREOD_EMULATOR);
-    for (std::string word; emulator >> word;) words.push_back(word);
-  }
-  words.push_back(program.string());
-  return words;
-}
-
 int wait_for(pid_t child) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0) {
@@ -41,6 +29,16 @@ int wait_for(pid_t child) {
 }
 
 }  // namespace
+
+std::vector<std::string> starter_of(const std::filesystem::path& program) {
+  std::vector<std::string> words;
+  if (program.parent_path() == STEREOD_BIN_DIR) {
+    std::istringstream emulator(STEREOD_EMULATOR);
+    for (std::string word; emulator >> word;) words.push_back(word);
+  }
+  words.push_back(program.string());
+  return words;
+}
 
 ChildProgram::ChildProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                            const std::filesystem::path& scratch)
