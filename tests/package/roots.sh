@@ -30,11 +30,14 @@ if [[ ${1:-} != --inside ]]; then
     { cmake --preset package && cmake --build --preset package -j "${JOBS:-$(nproc)}" && rm -f $debs/*.deb &&
       cpack --preset package; } >/dev/null || fail "the packages could not be made."
   fi
-  exec unshare --mount --pid --fork --kill-child bash "$here/$(basename "${BASH_SOURCE[0]}")" --inside "$(realpath "$debs")"
+  work=$(mktemp -d)
+  status=0
+  unshare --mount --pid --fork --kill-child bash "$here/$(basename "${BASH_SOURCE[0]}")" --inside "$(realpath "$debs")" "$work" ||
+    status=$?
+  rm -rf --one-file-system "$work"  # what was mounted there has gone with the namespace
+  exit "$status"
 fi
-debs=$2
-work=$(mktemp -d)
-trap 'umount -R "$work" 2>/dev/null || true; rm -rf --one-file-system "$work"' EXIT
+debs=$2 work=$3
 
 # base NAME PACKAGES: a root with these packages, in the cache.
 base() {
@@ -88,7 +91,7 @@ newer() {
 # streams: stereod of the root publishes a rendered scene, and another process of the root receives it. In a network of their
 # own.
 streams() {
-  in_network env -i PATH=/usr/bin:/bin chroot "$root" /bin/sh -c '
+  in_network env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin chroot "$root" /bin/sh -c '
     stereod --config /usr/share/doc/stereod/examples/demo.yaml 2>/tmp/stereod.log & daemon=$!
     "$@"; status=$?
     kill $daemon; wait $daemon || status="$status, stereod $?"
@@ -97,11 +100,13 @@ streams() {
 
 [[ -n $(compgen -G "$debs/stereod_*.deb") && -n $(compgen -G "$debs/libstereod-dev_*.deb") ]] ||
   fail "no packages in $debs"
+daemon_deb=/debs/$(basename "$debs"/stereod_*.deb)
+development_deb=/debs/$(basename "$debs"/libstereod-dev_*.deb)
 base bare ca-certificates
 enter bare
 
 say "install"
-need_apt install /debs/stereod_*_"$(dpkg --print-architecture)".deb
+need_apt install "$daemon_deb"
 for file in /usr/bin/stereod /usr/bin/stereo-tap /usr/bin/stereo-match /usr/bin/stereo-view /etc/stereod/stereod.yaml \
   /lib/systemd/system/stereod.service /lib/systemd/system/stereod@.service /lib/systemd/system/stereod-multicast.service \
   /lib/sysctl.d/60-stereod.conf /lib/udev/rules.d/60-stereod.rules /usr/share/man/man8/stereod.8.gz \
@@ -119,7 +124,7 @@ say "  $(sed -n 's/^rows  *\([0-9]*\)  *\([0-9]*\) .*/\2 of \1 rows received/p' 
 grep -q '^PackageName: liblcm1$' "$root/usr/share/doc/stereod/bill-of-materials.spdx" || fail "the bill of materials lacks liblcm1"
 
 say "the same version once more"
-need_apt install --reinstall /debs/stereod_*_"$(dpkg --print-architecture)".deb
+need_apt install --reinstall "$daemon_deb"
 
 say "upgrade; a changed configuration survives"
 echo '# my own line' >>"$root/etc/stereod/stereod.yaml"
@@ -153,13 +158,13 @@ left=$(cd "$root" && find etc usr lib var run -name '*stereod*' ! -path 'var/log
 [[ -z $left ]] || fail "left behind: $left"
 
 say "install after a purge"
-need_apt install /debs/stereod_*_"$(dpkg --print-architecture)".deb
+need_apt install "$daemon_deb"
 has /etc/stereod/stereod.yaml "it is installed"
 
 base development ca-certificates,g++,cmake,make,pkg-config
 enter development
 say "somebody else's program"
-need_apt install /debs/stereod_*_"$(dpkg --print-architecture)".deb /debs/libstereod-dev_*_"$(dpkg --print-architecture)".deb
+need_apt install "$daemon_deb" "$development_deb"
 cp -r "$here/consumer" "$root/home/consumer"
 in_root sh -ec 'cd /home/consumer && cmake -S . -B build >/dev/null && cmake --build build >/dev/null' || fail "it does not build with CMake"
 in_root sh -ec 'cd /home/consumer && g++ -std=c++17 consumer.cpp -o by-pkg-config $(pkg-config --cflags --libs stereod)' ||

@@ -7,11 +7,11 @@
 
 int main() {
   int frames = 0;
-  stereod::StereoClient client({});
+  stereod::StereoClient client{stereod::StereoClient::Options{}};
   client.on_frame([&](stereod::StereoFrame&& frame) {
     if (!frame.complete()) return;
     const stereod::frame_t& summary = *frame.summary;
-    std::printf("frame %lld with %d rows\n", static_cast<long long>(summary.frame), summary.rows_published);
+    std::printf("frame %lld with %d rows\n", static_cast<long long>(summary.frame), summary.rows);
     ++frames;
   });
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
