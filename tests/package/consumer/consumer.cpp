@@ -1,6 +1,6 @@
 // Ends with 0 once three whole frames have come, with 1 after twenty seconds without them.
-#include <stereod/frame_t.hpp>
 #include <stereod/stereod_client.h>
+#include <stereod/frame_t.hpp>
 
 #include <chrono>
 #include <cstdio>
