@@ -4,6 +4,7 @@ set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_CXX_COMPILER arm-linux-gnueabihf-g++)
 set(CMAKE_LIBRARY_ARCHITECTURE arm-linux-gnueabihf)
 set(STEREOD_DEBIAN_ARCHITECTURE armhf)
+set(STEREOD_EXPECTED_ISA neon)  # the matcher's kernel that the emulated CPU must get
 include(${CMAKE_CURRENT_LIST_DIR}/sysroot.cmake)
 # Debian's armhf does without NEON; without this the NEON kernel is not built. -Wno-psabi: g++ tells at length that it
 # passed some arguments differently before version 7.1.

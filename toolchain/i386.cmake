@@ -5,6 +5,7 @@ set(CMAKE_SYSTEM_PROCESSOR i686)
 set(CMAKE_CXX_COMPILER i686-linux-gnu-g++)
 set(CMAKE_LIBRARY_ARCHITECTURE i386-linux-gnu)
 set(STEREOD_DEBIAN_ARCHITECTURE i386)
+set(STEREOD_EXPECTED_ISA ssse3)  # the matcher's kernel that the emulated CPU must get
 include(${CMAKE_CURRENT_LIST_DIR}/sysroot.cmake)
 # The median's vectors stay inside one file, so how they would be passed without SSE does not matter.
 set(CMAKE_CXX_FLAGS_INIT "-Wno-psabi")

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs with apt what building stereod and running its demo takes; with --tests also what its tests take, with
-# --emulation also what it takes to run them on other CPUs, to fuzz and to count instructions.
+# --emulation also what it takes to run them on other CPUs, to fuzz and to count instructions, with --packages also what it
+# takes to build for other architectures and to try the packages.
 # Does nothing, and asks for no password, if everything is there.
 set -euo pipefail
 
@@ -22,6 +23,10 @@ emulation_packages=(
   qemu-user g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-i686-linux-gnu googletest
   clang-14 llvm-14 libclang-rt-14-dev valgrind
 )
+foreign_packages=(
+  qemu-user g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-i686-linux-gnu  # tests/cross/run.sh
+  mmdebstrap lintian openssh-client git                                       # tests/package
+)
 
 die() {
   echo "install-deps: $*" >&2
@@ -39,7 +44,8 @@ case "${1:-}" in
     packages+=("${test_packages[@]}")
     optional_packages+=("${emulation_packages[@]}")
     ;;
-  *) die "usage: toolchain/install-deps.sh [--tests | --emulation]" ;;
+  --packages) packages+=("${test_packages[@]}" "${foreign_packages[@]}") ;;
+  *) die "usage: toolchain/install-deps.sh [--tests | --emulation | --packages]" ;;
 esac
 
 # Prints those of its arguments that are not installed.

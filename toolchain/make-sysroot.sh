@@ -26,22 +26,15 @@ command -v mmdebstrap >/dev/null || die "no mmdebstrap here: apt install mmdebst
 packages=libc6-dev,libstdc++-12-dev,liblcm-dev,libv4l-dev,libyaml-cpp-dev,libspdlog-dev,libcli11-dev
 packages+=,libturbojpeg0-dev,libjpeg62-turbo-dev,libpng-dev,libsystemd-dev,libgtest-dev,libgmock-dev,libcpp-httplib-dev
 
-# Only sources that name Debian 12 itself as a suite: others need not have the architecture, nor may their packages get in.
-sources=()
-for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/sources.list.d/*.list; do
-  if [[ -s $file ]] && grep -qE '^(deb|Suites:)(.*[[:space:]])bookworm([[:space:]-]|$)' "$file"; then
-    sources+=("$file")
-  fi
-done
-[[ ${#sources[@]} -gt 0 ]] || die "no apt sources of Debian 12 in /etc/apt."
-
 mkdir -p "$sysroots"
+sources=$sysroots/$arch.sources
+"$(dirname "${BASH_SOURCE[0]}")/apt-sources.sh" >"$sources" || die "no apt sources of Debian 12 in /etc/apt."
 rm -rf "$sysroot"
 log=$sysroots/$arch.log
 mmdebstrap --variant=extract --architectures="$arch" --include="$packages" \
   --dpkgopt='path-exclude=/usr/share/man/*' --dpkgopt='path-exclude=/usr/share/locale/*' \
   --extract-hook="mkdir -p '$sysroot.debs' && cp \"\$1\"/var/cache/apt/archives/*.deb '$sysroot.debs'" \
-  bookworm "$sysroot" "${sources[@]}" >"$log" 2>&1 || die "mmdebstrap failed; see $log"
+  bookworm "$sysroot" "$sources" >"$log" 2>&1 || die "mmdebstrap failed; see $log"
 
 # Links that start at the root would lead out of the sysroot.
 find "$sysroot" -xtype l -lname '/*' | while read -r link; do
@@ -68,5 +61,6 @@ for deb in "$sysroot.debs"/*.deb; do
   rm -rf "$control"
 done
 rm -rf "$sysroot.debs"
+rm "$sources"
 touch "$sysroot/.complete"
 echo "$sysroot"

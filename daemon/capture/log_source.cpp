@@ -22,9 +22,9 @@
 namespace stereod {
 namespace {
 
-constexpr std::int64_t kFarthestPartner = 500'000;  // µs between the exposures of a pair
-constexpr std::size_t kMostBytes = std::size_t{4} << 30;
-constexpr std::size_t kFields = 48;  // bytes of an image_t besides its data
+constexpr std::int64_t kFarthestPartner = 500'000;              // µs between the exposures of a pair
+constexpr std::uint64_t kMost_GiB = sizeof(void*) < 8 ? 1 : 4;  // all of it is kept in memory
+constexpr std::size_t kFields = 48;                             // bytes of an image_t besides its data
 
 struct LoggedImage {
   std::int64_t utime = 0;
@@ -98,7 +98,7 @@ LoggedPairs read_pairs(const std::filesystem::path& file, const std::string& pre
   LcmLogReader reader(file);
   std::vector<LoggedImage> left, right;
   int damaged = 0;
-  std::size_t bytes = 0;
+  std::uint64_t bytes = 0;
   LogEvent event;
   while (reader.next(event)) {
     const bool is_left = event.channel == prefix + "_LEFT_RAW";
@@ -109,9 +109,9 @@ LoggedPairs read_pairs(const std::filesystem::path& file, const std::string& pre
       continue;
     }
     bytes += event.data.size();
-    if (bytes > kMostBytes) {
-      throw FileError(file.string() +
-                      ": the log has more than 4 GiB of raw images; cut it into pieces, as "
+    if (bytes > kMost_GiB << 30) {
+      throw FileError(file.string() + ": the log has more than " + std::to_string(kMost_GiB) +
+                      " GiB of raw images; cut it into pieces, as "
                       "'stereo-tap record --seconds' makes them");
     }
     (is_left ? left : right).push_back(std::move(*image));

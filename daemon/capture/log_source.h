@@ -25,7 +25,7 @@ struct LogSources {
 };
 
 /// Reads the whole log into memory. Throws FileError with a sentence: no log, no pair of images in it, images
-/// of different sizes, more than 4 GiB of them.
+/// of different sizes, more than 4 GiB of them (1 GiB on 32-bit machines).
 LogSources open_log(const std::filesystem::path& file, const LogReplayOptions& options);
 
 }  // namespace stereod

@@ -41,7 +41,8 @@ LcmLogReader::LcmLogReader(const std::filesystem::path& file) : file_(std::fopen
 bool LcmLogReader::next(LogEvent& event) {
   std::array<std::uint8_t, kHead> head{};
   while (read_head(head)) {
-    const std::size_t channel = big_endian(&head[20], 4), data = big_endian(&head[24], 4);
+    const auto channel = static_cast<std::size_t>(big_endian(&head[20], 4));
+    const auto data = static_cast<std::size_t>(big_endian(&head[24], 4));
     const bool sane = channel >= 1 && channel <= kLongestChannel && data <= kLargestMessage;
     if (sane) {
       event.utime = static_cast<std::int64_t>(big_endian(&head[12], 8));

@@ -14,6 +14,7 @@
 #include "daemon/service/log.h"
 #include "stereod/frame_t.hpp"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/foreign_isa.h"
 #include "tests/support/notify_socket.h"
 #include "tests/support/recorded_pairs.h"
 #include "tests/support/temporary_directory.h"
@@ -218,7 +219,7 @@ TEST_F(ServiceTest, AFileThatCannotWorkChangesNothingAndIsSaid) {
   ASSERT_TRUE(systemd.wait_for("READY=1", std::chrono::seconds(60), tick));
   const std::map<std::string, std::string> bad{
       {"matcher: {windw: 3}\n", "stereod.yaml:3: matcher.windw: is not a known key"},
-      {"matcher: {isa: neon}\n", "stereod.yaml:3: matcher.isa: isa is neon"},
+      {"matcher: {isa: " + foreign_isa() + "}\n", "stereod.yaml:3: matcher.isa: isa is " + foreign_isa()},
       {"lcm: {rows_per_message: 999}\n", "stereod.yaml:3: lcm.rows_per_message: found 999"},
       {"calibration: gone.yaml\n", "gone.yaml"},
       {"lcm: {url: 'udpm://239.255.76.67:7667?ttl=9'}\n", "no such network"},

@@ -21,6 +21,7 @@
 #include "daemon/tools/tap/frame_listener.h"
 #include "daemon/tools/tap/lcm_receiver.h"
 #include "daemon/tools/tap/message_decoder.h"
+#include "tests/support/foreign_isa.h"
 #include "tests/support/network.h"
 #include "tests/support/recorded_pairs.h"
 #include "tests/support/run_program.h"
@@ -273,13 +274,16 @@ TEST_F(StereodTest, AReaderOfTheLogThatStopsDoesNotStopIt) {
   LcmReceiver receiver(kUrl);
   int frames = 0;
   receiver.subscribe("E2E_FRAME", [&](std::span<const std::byte>) { ++frames; });
-  std::string words[] = {(kBin / "stereod").string(), "--config", config.string()};
-  char* argv[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+  std::vector<std::string> words = starter_of(kBin / "stereod");
+  words.insert(words.end(), {"--config", config.string()});
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
   pid_t child = 0;
-  ASSERT_EQ(::posix_spawn(&child, argv[0], &actions, nullptr, argv, environ), 0);
+  ASSERT_EQ(::posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ), 0);
   posix_spawn_file_actions_destroy(&actions);
   const auto receive_frames = [&](int count) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -316,8 +320,8 @@ TEST_F(StereodTest, ChecksAConfigurationWithoutStarting) {
 
 struct BadStart {
   const char* name;
-  const char* config;
-  const char* complaint;  // part of the sentence
+  std::string config;
+  std::string complaint;  // part of the sentence
 };
 
 class StereodBadStart : public StereodTest, public testing::WithParamInterface<BadStart> {};
@@ -350,8 +354,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "calibration.yaml: the calibration is for images of 320×240, the cameras give 640×480"},
         BadStart{"MissingCalibration", "cameras: {source: synthetic}\ncalibration: gone.yaml\n", "gone.yaml"},
         BadStart{"ImpossibleIsa",
-                 "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nmatcher: {isa: neon}\n",
-                 "bad.yaml:2: matcher.isa: isa is neon, which this CPU or this build does not have"},
+                 "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nmatcher: {isa: " +
+                     foreign_isa() + "}\n",
+                 "bad.yaml:2: matcher.isa: isa is " + foreign_isa() +
+                     ", which this CPU or this build does not have"},
         BadStart{"TooManyRows", "cameras: {source: synthetic}\nlcm: {rows_per_message: 200}\n",
                  "bad.yaml:2: lcm.rows_per_message: found 200"},
         BadStart{"ScanWithoutCalibration",

@@ -13,6 +13,10 @@ fail() {
   exit 1
 }
 
+"$bin/stereod" --version >/dev/null 2>&1 || [[ $? -ne 126 ]] || {
+  echo "two_hosts: the programs are for another architecture: skipped."
+  exit 77
+}
 if [[ ${2:-} != --inside ]]; then
   for flags in -rn -n; do
     if unshare "$flags" true 2>/dev/null; then exec unshare "$flags" "$0" "$bin" --inside; fi

@@ -6,6 +6,10 @@ bin=${1:?usage: manual_pages.sh FOLDER-OF-PROGRAMS}
 pages=$(dirname "${BASH_SOURCE[0]}")/../../docs/man
 failed=0
 checked=0
+"$bin/stereod" --version >/dev/null 2>&1 || [[ $? -ne 126 ]] || {
+  echo "manual_pages: the programs are for another architecture: skipped."
+  exit 77
+}
 
 # options_of PROGRAM [COMMAND]
 options_of() { "$@" --help | grep -oE '^  [^ ].*' | grep -oE -- '(^  |,)(-[a-z],)?--[a-z][a-z-]*' | grep -oE -- '--[a-z-]+'; }

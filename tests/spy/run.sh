@@ -20,6 +20,7 @@ fail() {
 for tool in java Xvfb xdotool; do
   command -v "$tool" >/dev/null || skip "$tool is missing (Debian: default-jre xvfb xdotool)"
 done
+"$bin/stereod" --version >/dev/null 2>&1 || [[ $? -ne 126 ]] || skip "the programs are for another architecture"
 [[ -r $share/stereod-spy.jar ]] || skip "stereod-spy was not built"
 [[ -n $(ip route get 239.255.76.67 2>/dev/null) ]] || skip "no route for multicast"
 

@@ -264,8 +264,8 @@ int FakeVideo::answer_buffers(Opened& opened, unsigned long request, void* argum
           filled.frame.bytesused.value_or(static_cast<std::uint32_t>(filled.frame.bytes.size()));
       buffer.sequence = filled.frame.sequence;
       buffer.flags = filled.frame.flags;
-      buffer.timestamp.tv_sec = filled.frame.stamp_ns / 1'000'000'000;
-      buffer.timestamp.tv_usec = filled.frame.stamp_ns % 1'000'000'000 / 1000;
+      buffer.timestamp.tv_sec = static_cast<time_t>(filled.frame.stamp_ns / 1'000'000'000);
+      buffer.timestamp.tv_usec = static_cast<suseconds_t>(filled.frame.stamp_ns % 1'000'000'000 / 1000);
       return 0;
     }
     case VIDIOC_STREAMON:

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <utility>
 
 namespace stereod {
@@ -29,11 +30,21 @@ int wait_for(pid_t child) {
 
 }  // namespace
 
+std::vector<std::string> starter_of(const std::filesystem::path& program) {
+  std::vector<std::string> words;
+  if (program.parent_path() == STEREOD_BIN_DIR) {
+    std::istringstream emulator(STEREOD_EMULATOR);
+    for (std::string word; emulator >> word;) words.push_back(word);
+  }
+  words.push_back(program.string());
+  return words;
+}
+
 ChildProgram::ChildProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                            const std::filesystem::path& scratch)
     : out_(scratch / (program.filename().string() + ".out")),
       err_(scratch / (program.filename().string() + ".err")) {
-  std::vector<std::string> words{program.string()};
+  std::vector<std::string> words = starter_of(program);
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -45,7 +56,7 @@ ChildProgram::ChildProgram(const std::filesystem::path& program, const std::vect
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out_.c_str(), kWrite, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err_.c_str(), kWrite, 0600);
-  if (::posix_spawn(&child_, program.c_str(), &actions, nullptr, argv.data(), environ) != 0) child_ = 0;
+  if (::posix_spawnp(&child_, argv[0], &actions, nullptr, argv.data(), environ) != 0) child_ = 0;
   posix_spawn_file_actions_destroy(&actions);
 }
 

@@ -9,6 +9,10 @@
 
 namespace stereod {
 
+/// The words that start a program: its path; before it, if it was built beside the tests and is foreign to
+/// this machine, the emulator that runs the tests themselves.
+std::vector<std::string> starter_of(const std::filesystem::path& program);
+
 struct ProgramRun {
   int status = -1;  ///< exit status; 128 + the signal if one ended it; -1 if it could not be started
   std::string out;

@@ -2,10 +2,10 @@
 # Tests with a real kernel: Debian's kernel and systemd in a virtual machine, with webcams on uvcvideo. All scenarios run in
 # one machine, one after the other. Says what is skipped where QEMU or the packages cannot be had.
 #
-#   run.sh [--cpu MODEL] [--bin FOLDER] [--seed N] [SCENARIO…]     all scenarios, if none is named
+#   run.sh [--cpu MODEL] [--bin FOLDER] [--package FILE] [--seed N] [SCENARIO…]     all scenarios, if none is named
 #
-# --cpu: a CPU model of QEMU, for example Denverton; --bin: take the programs from there instead of building them; --seed: of what
-# scenarios do at random, as an earlier run printed it.
+# --cpu: a CPU model of QEMU, for example Denverton; --bin: take the programs from there instead of building them; --package: the
+# stereod that is installed by the scenarios that install it; --seed: of what scenarios do at random, as an earlier run printed it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 here=tests/vm
@@ -28,16 +28,13 @@ head_of() { sed -n "s/^# $2: *//p" "$here/scenarios/$1.sh" | head -n 1; }
 
 # What the machine finds in /share. It leaves the log of each scenario there.
 fill_share() {
-  local name program package
+  local name program
   rm -rf "$logs"
   mkdir -p "$logs/bin"
   echo "$seed" >"$logs/seed"
   cp -r "$here/guest" systemd etc "$logs"
   for program in "${programs[@]}"; do cp "$bin/$program" "$logs/bin"; done
-  # A package that cpack made of these very programs, for scenarios that install it.
-  for package in "$bin"/../stereod_*.deb; do
-    if [[ $package -nt $bin/stereod ]]; then cp "$package" "$logs"; fi
-  done
+  [[ -z $package ]] || cp "$package" "$logs"
   for name in "${scenarios[@]}"; do
     mkdir "$logs/$name"
     cp "$here/scenarios/$name.sh" "$logs/$name/scenario.sh"
@@ -84,14 +81,16 @@ done
 
 cpu=Denverton  # an Atom: SSE4.2, no AVX
 built=
+package=
 seed=$RANDOM  # another each time
 scenarios=()
 while [[ $# -gt 0 ]]; do
   case $1 in
     --cpu) cpu=${2:?--cpu wants a model} && shift ;;
     --bin) bin=${2:?--bin wants a folder} built=yes && shift ;;
+    --package) package=$(realpath "${2:?--package wants a file}") && shift ;;
     --seed) seed=${2:?--seed wants a number} && shift ;;
-    -*) die "usage: tests/vm/run.sh [--cpu MODEL] [--bin FOLDER] [--seed N] [SCENARIO…]" ;;
+    -*) die "usage: tests/vm/run.sh [--cpu MODEL] [--bin FOLDER] [--package FILE] [--seed N] [SCENARIO…]" ;;
     *) scenarios+=("$1") ;;
   esac
   shift
@@ -104,6 +103,23 @@ for name in "${scenarios[@]}"; do
   [[ -f $here/scenarios/$name.sh ]] || die "there is no scenario '$name'; see $here/scenarios"
   allowed=$((allowed + $(head_of "$name" seconds)))
 done
+
+# A package that cpack made of these very programs, if the caller named no other.
+if [[ -z $package ]]; then
+  for made in "$bin"/../stereod_*_amd64.deb; do
+    if [[ $made -nt $bin/stereod ]]; then package=$made; fi
+  done
+fi
+kept=()
+for name in "${scenarios[@]}"; do
+  if [[ $(head_of "$name" needs) == package && -z $package ]]; then
+    echo "vm/run: SKIPPED: $name (no package of stereod here: --package FILE, or cpack --preset release)."
+  else
+    kept+=("$name")
+  fi
+done
+scenarios=("${kept[@]}")
+[[ ${#scenarios[@]} -gt 0 ]] || exit 0
 
 prepared=0
 image=$("$here/setup.sh") || prepared=$?

@@ -13,7 +13,8 @@ cache=${XDG_CACHE_HOME:-$HOME/.cache}/stereod/vm
 host_packages=(qemu-system-x86 mmdebstrap busybox-static cpio e2fsprogs gcc-12 make kmod)
 guest_packages=(
   systemd systemd-sysv udev dbus kmod iproute2 procps v4l-utils
-  libspdlog1.10 libyaml-cpp0.7 libturbojpeg0 libjpeg62-turbo libpng16-16 liblcm1 libglib2.0-0 libv4l-0  # what the programs link to
+  # what the programs link to
+  libspdlog1.10 libyaml-cpp0.7 libturbojpeg0 libjpeg62-turbo libpng16-16 liblcm1 libglib2.0-0 libv4l-0 libcpp-httplib0.11
 )
 modules=(uvcvideo vhci-hcd v4l2loopback vivid dummy 9p 9pnet_virtio virtio_pci virtio_blk virtio_rng ext4)
 boot_modules=(virtio_pci virtio_blk ext4)  # before there is a root file system

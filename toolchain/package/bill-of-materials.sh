@@ -4,6 +4,7 @@
 #   bill-of-materials.sh --version V --sysroot FOLDER --objdump PROGRAM --output FILE PROGRAM…
 # An empty sysroot is this machine. A sysroot is one of make-sysroot.sh, with its list of packages.
 set -euo pipefail
+umask 022  # what is installed is for everybody, whoever makes the package
 
 version= sysroot= objdump=objdump output= programs=()
 while [[ $# -gt 0 ]]; do

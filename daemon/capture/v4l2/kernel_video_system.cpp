@@ -225,7 +225,8 @@ class KernelVideoSystem final : public VideoSystem {
   }
 
   void sleep_until(std::int64_t time_ns) noexcept override {
-    const timespec until{time_ns / 1'000'000'000, time_ns % 1'000'000'000};
+    const timespec until{static_cast<time_t>(time_ns / 1'000'000'000),
+                         static_cast<long>(time_ns % 1'000'000'000)};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
     }
   }

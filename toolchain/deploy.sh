@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# Brings stereod onto a robot: builds the package for the robot's architecture, copies it there, installs it, starts the service
+# anew, and shows what it says.
+#   toolchain/deploy.sh [USER@]HOST [SSH-OPTION…]       for example: toolchain/deploy.sh robot@192.168.1.20 -p 2222
+# Wanted there: Debian 12, ssh with a key, and root or sudo without a password.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+die() {
+  echo "deploy: $*" >&2
+  exit 1
+}
+
+host=${1:-}
+[[ -n $host && $host != -* ]] || die "usage: toolchain/deploy.sh [USER@]HOST [SSH-OPTION…]"
+shift
+command -v ssh >/dev/null || die "there is no ssh here: apt install openssh-client"
+remote() { ssh -o BatchMode=yes -o ConnectTimeout=10 "${ssh_options[@]}" "$host" "$@"; }
+ssh_options=("$@")
+
+# What the host is, one answer a line.
+ask='. /etc/os-release 2>/dev/null; echo "${ID:-unknown} ${VERSION_ID:-}"
+  dpkg --print-architecture 2>/dev/null || echo none
+  if [ "$(id -u)" = 0 ]; then echo root; elif sudo -n true 2>/dev/null; then echo sudo; else echo nobody; fi'
+errors=$(mktemp)
+trap 'rm -f "$errors"' EXIT
+answers=$(remote "$ask" 2>"$errors") ||
+  die "cannot log in at $host by ssh: $(tail -n 1 "$errors" | tr -d '\r' | sed 's,\.$,,'). Is it on, and does it have your key (ssh-copy-id $host)?"
+{ read -r system release && read -r arch && read -r rights; } <<<"$answers" || die "$host answers nothing that makes sense."
+
+[[ $system == debian && $release == 12 ]] ||
+  die "$host runs $system ${release:-of no version}, but the package is made for Debian 12, whose libraries it needs."
+case $arch in
+  amd64) preset=package ;;
+  arm64 | armhf | i386) preset=$arch ;;
+  none) die "$host has no dpkg, so nothing can be installed there." ;;
+  *) die "$host is of the architecture $arch; packages are made for amd64, arm64, armhf and i386." ;;
+esac
+[[ $rights != nobody ]] || die "at $host you are neither root nor may use sudo without a password; log in as root@… or permit it."
+as_root=
+[[ $rights == root ]] || as_root='sudo -n '
+
+# Without tests, in a folder of its own.
+build=build/package
+if [[ $preset != package ]]; then
+  toolchain/make-sysroot.sh "$arch" >/dev/null || die "there are no libraries to build against for $arch, see above."
+  build=build/package-$arch
+fi
+echo "deploy: building for $host, $arch"
+log=$build.log
+mkdir -p build
+rm -f "$build"/*.deb
+{ cmake --preset "$preset" -B "$build" -DSTEREOD_TESTS=OFF && cmake --build "$build" -j "${JOBS:-$(nproc)}" &&
+  cpack --config "$build/CPackConfig.cmake" -G DEB; } >"$log" 2>&1 ||
+  { tail -n 20 "$log" >&2 && die "the package cannot be built; all of it: $log"; }
+package=$(ls "$build"/stereod_*_"$arch".deb)
+
+echo "deploy: installing $(basename "$package"), $(($(stat -c %s "$package") / 1024)) KiB"
+folder=$(remote 'mktemp -d /tmp/stereod-XXXXXX') || die "no folder can be made in /tmp of $host; is its disk full?"
+remote "cat >$folder/stereod.deb" <"$package" || die "the package cannot be copied to $host; is its disk full?"
+# One's own configuration stays; a changed one of the package is laid beside it.
+remote "chmod 755 $folder && ${as_root}env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends --reinstall \
+  --allow-downgrades -o Dpkg::Options::=--force-confold install $folder/stereod.deb </dev/null; status=\$?; rm -rf $folder; exit \$status" \
+  >"$errors" 2>&1 || { cat "$errors" >&2 && die "apt-get on $host could not install it, see above."; }
+
+if ! remote 'test -d /run/systemd/system'; then
+  echo "deploy: installed; systemd does not run on $host, so nothing was started."
+  exit 0
+fi
+started=0
+remote "${as_root}systemctl restart stereod" || started=1
+remote "${as_root}systemctl --no-pager --full status stereod; ${as_root}journalctl --no-pager -o cat -u stereod -n 20" || true
+[[ $started -eq 0 ]] || die "stereod does not start on $host; its own words are above, its configuration is /etc/stereod/stereod.yaml there."
+remote 'systemctl -q is-enabled stereod' ||
+  echo "deploy: it runs now, but not after the next start of $host: ssh $host ${as_root}systemctl enable stereod"
+echo "deploy: done."
