@@ -40,7 +40,7 @@ void run(KeepingBus<image_t>& bus, bool enabled, bool jpeg, std::size_t images) 
 GreyImage rectified(const SyntheticScene& scene, std::int64_t frame) {
   const GreyImage raw = scene.render_left(static_cast<int>(frame % scene.frames()));
   GreyImage left(kSize);
-  RectifyMap(scene.calibration().left, {kSize, raw.view().stride(), 1})
+  RectifyMap(scene.calibration().left, {kSize, raw.view().stride(), 1}, RectifyConfig{}.interpolation)
       .grey_rows(raw.row(0), {0, kSize.height}, left.view());
   return left;
 }
