@@ -64,6 +64,13 @@ check_format() {
     xargs -0 "$tool" --dry-run -Werror
 }
 
+# With the package of the very programs that were tested.
+virtual_machine() {
+  cpack --preset release &&
+    bash tests/vm/run.sh --bin build/release/bin \
+      --package build/release/stereod_*_"$(dpkg --print-architecture)".deb
+}
+
 # Says itself which CPUs it has to skip where the emulator or a compiler cannot be had.
 emulated_cpus() {
   toolchain/install-deps.sh --emulation && tests/emulated/run.sh
@@ -83,7 +90,7 @@ fi
 
 suite tests preset release
 if [[ ${1:-} == --all ]]; then
-  suite virtual-machine bash tests/vm/run.sh --bin build/release/bin
+  suite virtual-machine virtual_machine
   suite format check_format
   suite core-only preset core
   suite address-sanitizer preset asan

@@ -13,6 +13,7 @@ build_packages=(
   libsystemd-dev               # word to systemd of how the daemon is
   libv4l-dev                   # formats of cameras that are not read directly
   iproute2 util-linux          # ip and unshare: the demo's and the tests' own network
+  dpkg-dev file                # for cpack: what packages depend on
 )
 test_packages=(libgtest-dev libgmock-dev libopencv-dev poppler-utils libcpp-httplib-dev nftables chromium
   liblcm-java libjchart2d-java default-jre default-jdk-headless xvfb xdotool  # stereod-spy
