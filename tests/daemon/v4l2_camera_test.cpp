@@ -210,6 +210,24 @@ TEST_F(V4l2CameraTest, ACameraThatNeedsANewStartGetsItSoon) {
   }
 }
 
+TEST_F(V4l2CameraTest, ACameraThatHasNeverDeliveredIsStartedAgainEverySecond) {
+  bench_.left_camera->frozen = true;
+  bench_.make();
+  EXPECT_FALSE(bench_.frame(*bench_.left, 60'000));
+  // 60 s less six starts that are given three.
+  EXPECT_GE(bench_.left_camera->starts, 60 - 6 * 2 - 3);
+}
+
+TEST_F(V4l2CameraTest, ASlowCameraThatHasNeverDeliveredGetsTheTimeItNeeds) {
+  bench_.left_camera->start_latency_ns = 2500 * kMs;
+  bench_.left_camera->frozen = true;
+  bench_.left_camera->thaws_at_start = true;
+  bench_.make();
+  EXPECT_FALSE(bench_.frame(*bench_.left, 10'000));
+  bench_.left_camera->frozen = false;
+  EXPECT_TRUE(bench_.frame(*bench_.left, 10'000));
+}
+
 TEST_F(V4l2CameraTest, ACameraThatStartsSlowlyIsWaitedFor) {
   bench_.left_camera->start_latency_ns = 2500 * kMs;
   bench_.make();
