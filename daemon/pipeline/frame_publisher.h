@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "daemon/pipeline/output_frame.h"
+#include "daemon/pipeline/published_pixels.h"
 #include "daemon/pipeline/recent_values.h"
 #include "daemon/pipeline/rows_encoder.h"
 #include "daemon/pipeline/scan_publisher.h"
@@ -37,8 +38,9 @@ struct WireFormat {
   int invalid_value() const { return bytes_per_value() == 1 ? 0xFF : 0xFFFF; }
 };
 
-/// Why images of this size cannot be published like this, as a sentence; nothing if they can.
-std::optional<std::string> wire_problem(const WireFormat& format, Size size);
+/// Why disparity images of this size (what of them is published) cannot go onto the wire like this, as a
+/// sentence; nothing if they can.
+std::optional<std::string> wire_problem(const WireFormat& format, Size published);
 
 /// Figures about what was published. The recent ones are since the last take_figures().
 struct PublisherFigures {
@@ -53,15 +55,18 @@ struct PublisherFigures {
 /// waits, so that a burst does not overrun the receivers' socket buffers. Workers never wait for the network.
 class FramePublisher {
  public:
-  /// `scan`: what is shown the rows as well; it outlives the publisher. Null: nothing. Throws
-  /// std::invalid_argument with a sentence if a block of rows does not fit in one message.
-  FramePublisher(MessageBus& bus, const WireFormat& format, Size size, ScanPublisher* scan = nullptr);
+  /// `size`: of the rectified image, `pixels`: what of it is published. `scan`: what is shown the rows as
+  /// well; it outlives the publisher. Null: nothing. Throws std::invalid_argument with a sentence if a block
+  /// of rows does not fit in one message.
+  FramePublisher(MessageBus& bus, const WireFormat& format, Size size, const PublishedPixels& pixels,
+                 ScanPublisher* scan = nullptr);
   ~FramePublisher();
   FramePublisher(const FramePublisher&) = delete;
   FramePublisher& operator=(const FramePublisher&) = delete;
 
-  /// Rows are announced by blocks: block b is the rows [b·rows_per_message, …).
+  /// Rows are announced by blocks: block b is the published rows [b·rows_per_message, …).
   int blocks() const { return blocks_; }
+  /// The rows of the rectified image that a block is made of, those between the published ones included.
   RowRange block_rows(int block) const;
 
   /// A frame to fill; waits until one is free. Null once stop() was called.
@@ -92,12 +97,13 @@ class FramePublisher {
   void run() noexcept;
   void send_block(const OutputFrame& frame, int block) noexcept;
   void send_frame_message(const OutputFrame& frame) noexcept;
+  RowRange published_rows(int block) const;
   void keep_pace(std::size_t bytes) noexcept;
 
   MessageBus& bus_;
   ScanPublisher* const scan_;
   const WireFormat format_;
-  const Size size_;
+  const PublishedPixels pixels_;
   const int blocks_;
   const std::string rows_channel_, frame_channel_;
 

@@ -89,6 +89,7 @@ class Pipeline {
   std::shared_ptr<Cameras> cameras_;
   const std::optional<Calibration> calibration_;
   const Size size_;
+  const PublishedPixels pixels_;
   std::string matcher_description_;
   std::optional<ScanPublisher> scan_publisher_;
   FramePublisher publisher_;
@@ -98,7 +99,12 @@ class Pipeline {
   std::optional<RawPublisher> raw_publisher_;
   std::optional<LeftPublisher> left_publisher_;
   std::optional<RectifyMap> left_map_, right_map_;
-  std::optional<ValidityMask> left_mask_, right_mask_;  // of the maps
+  /// Of a map: of all columns, and of those that are matched if these are fewer.
+  struct Masks {
+    std::optional<ValidityMask> whole, matched;
+    const ValidityMask& matching() const { return matched ? *matched : *whole; }
+  };
+  Masks left_masks_, right_masks_;
   mutable std::mutex scheduling_mutex_;
   std::string scheduling_problem_;
   AlignmentMonitor alignment_monitor_;

@@ -29,7 +29,11 @@ void check_frame_size(const Config& config, const std::filesystem::path& file, S
     check_pipeline(config, size);
   } catch (const std::invalid_argument& error) {
     const bool too_large = std::max(size.width, size.height) > kLargestImageSide;
-    throw FileError(place_of(file, too_large ? "cameras" : "lcm.rows_per_message") + ": " + error.what());
+    const bool outside = region_problem(config.publish, size).has_value();
+    throw FileError(place_of(file, too_large ? "cameras"
+                                   : outside ? "publish.region"
+                                             : "lcm.rows_per_message") +
+                    ": " + error.what());
   }
 }
 

@@ -360,6 +360,9 @@ INSTANTIATE_TEST_SUITE_P(
                      ", which this CPU or this build does not have"},
         BadStart{"TooManyRows", "cameras: {source: synthetic}\nlcm: {rows_per_message: 200}\n",
                  "bad.yaml:2: lcm.rows_per_message: found 200"},
+        BadStart{"RegionOutside",
+                 "cameras: {source: synthetic}\npublish: {region: {top: 400, height: 200}}\n",
+                 "bad.yaml:2: publish.region: found 0×200 pixels from column 0, row 400 on"},
         BadStart{"ScanWithoutCalibration",
                  "cameras: {source: replay, replay: {left: left_00.png, right: right_00.png}}\nscan: "
                  "{enabled: true}\n",
