@@ -101,6 +101,9 @@ struct PublishConfig {
   int left = 0, top = 0;              ///< first column and row of the rectified image, px
   int width = 0, height = 0;          ///< px of the rectified image; 0: up to its edge
   int column_step = 1, row_step = 1;  ///< every so many-th
+  bool depth = false;                 ///< depth in millimetres
+  bool cloud = false;                 ///< points
+  int cloud_step = 8;                 ///< of every so many-th column and row
 };
 
 struct ScanConfig {

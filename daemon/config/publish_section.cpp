@@ -22,6 +22,9 @@ void read_publish_section(YamlSection section, PublishConfig& publish) {
   read_region(section.section("region"), publish);
   publish.column_step = section.integer("column_step", publish.column_step, 1, kMostStep);
   publish.row_step = section.integer("row_step", publish.row_step, 1, kMostStep);
+  publish.depth = section.flag("depth", publish.depth);
+  publish.cloud = section.flag("cloud", publish.cloud);
+  publish.cloud_step = section.integer("cloud_step", publish.cloud_step, 1, kMostStep);
   section.finish();
 }
 

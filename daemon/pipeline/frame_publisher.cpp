@@ -29,10 +29,15 @@ int WireFormat::bytes_per_value() const {
   return (min_disparity + disparities - 1) * units_per_pixel < 0xFF ? 1 : 2;
 }
 
+int WireFormat::row_bytes(int width) const {
+  const int disparity = width * bytes_per_value() + (width + 7) / 8;
+  return with_depth ? std::max(disparity, width * DepthPublisher::kBytesPerValue) : disparity;
+}
+
 FramePublisher::FramePublisher(MessageBus& bus, const WireFormat& format, Size size,
-                               const PublishedPixels& pixels, ScanPublisher* scan)
+                               const PublishedPixels& pixels, const RowFollowers& followers)
     : bus_(bus),
-      scan_(scan),
+      followers_(followers),
       format_(format),
       pixels_(pixels),
       blocks_((pixels.height + format.rows_per_message - 1) / format.rows_per_message),
@@ -154,9 +159,21 @@ void FramePublisher::send_block(const OutputFrame& frame, int block) noexcept {
   measured_pixels_ += encode_rows(frame.disparity.view(), published_rows(block), rows_message_);
   keep_pace(static_cast<std::size_t>(rows_message_.size + rows_message_.filled_size));
   if (!encoder_.publish(bus_, rows_channel_.c_str(), rows_message_)) ++refused_;
-  if (scan_ == nullptr) return;
+  show_followers(frame, block);
+}
+
+void FramePublisher::show_followers(const OutputFrame& frame, int block) noexcept {
+  if (followers_.depth != nullptr) {
+    const RowRange published = published_rows(block);
+    keep_pace(static_cast<std::size_t>(published.count() * pixels_.width * DepthPublisher::kBytesPerValue));
+    if (!followers_.depth->send_rows(frame.facts, frame.disparity.view(), published)) ++refused_;
+  }
+  if (followers_.scan == nullptr && followers_.cloud == nullptr) return;
   const RowRange rows = block_rows(block);
-  for (int y = rows.first; y < rows.end; ++y) scan_->add_row(y, frame.disparity.row(y));
+  for (int y = rows.first; y < rows.end; ++y) {
+    if (followers_.scan != nullptr) followers_.scan->add_row(y, frame.disparity.row(y));
+    if (followers_.cloud != nullptr) followers_.cloud->add_row(y, frame.disparity.row(y));
+  }
 }
 
 void FramePublisher::send_frame_message(const OutputFrame& frame) noexcept {
@@ -177,8 +194,12 @@ void FramePublisher::send_frame_message(const OutputFrame& frame) noexcept {
   frame_message_.filter_us = us(facts.filter_ns);
   frame_message_.publish_us = us(sent_ns - facts.matched_ns);
   frame_message_.latency_us = us(sent_ns - captured_ns);
-  if (scan_ != nullptr && !scan_->finish(frame_message_)) ++refused_;
+  if (followers_.scan != nullptr && !followers_.scan->finish(frame_message_)) ++refused_;
   if (!encoder_.publish(bus_, frame_channel_.c_str(), frame_message_)) ++refused_;
+  if (followers_.cloud != nullptr) {
+    keep_pace(followers_.cloud->bytes());
+    if (!followers_.cloud->finish(facts)) ++refused_;
+  }
 
   const std::lock_guard lock(mutex_);
   ++figures_.frames;
@@ -191,11 +212,15 @@ void FramePublisher::send_frame_message(const OutputFrame& frame) noexcept {
   measured_pixels_ = 0;
 }
 
+double FramePublisher::bytes_of_frame() const {
+  const int bytes = format_.bytes_per_value() + (format_.with_depth ? DepthPublisher::kBytesPerValue : 0);
+  return static_cast<double>(pixels_.width) * pixels_.height * bytes;
+}
+
 // Lets a burst through, then no more bytes than the spread allows.
 void FramePublisher::keep_pace(std::size_t bytes) noexcept {
   if (format_.spread_s <= 0) return;
-  const double frame_bytes = static_cast<double>(pixels_.width) * pixels_.height * format_.bytes_per_value();
-  const double ns_per_byte = format_.spread_s * 1e9 / frame_bytes;
+  const double ns_per_byte = format_.spread_s * 1e9 / bytes_of_frame();
   const std::int64_t now = monotonic_ns();
   const auto burst_ns = static_cast<std::int64_t>(ns_per_byte * static_cast<double>(kBurstBytes));
   paced_until_ns_ = std::max(paced_until_ns_, now - burst_ns) +

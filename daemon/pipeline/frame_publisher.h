@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "daemon/pipeline/cloud_publisher.h"
+#include "daemon/pipeline/depth_publisher.h"
 #include "daemon/pipeline/output_frame.h"
 #include "daemon/pipeline/published_pixels.h"
 #include "daemon/pipeline/recent_values.h"
@@ -29,12 +31,13 @@ struct WireFormat {
   int min_disparity = 0;
   int disparities = 1;
   int units_per_pixel = 1;
-  double spread_s = 0;  ///< time over which one frame's rows are spread out; 0: sent as they come
+  bool with_depth = false;  ///< the same rows go out once more, as depth
+  double spread_s = 0;      ///< time over which one frame's rows are spread out; 0: sent as they come
 
   /// 1 if every value and the invalid one fit in a byte, else 2.
   int bytes_per_value() const;
   /// What a row takes in a message at most, the bits of its filled pixels included.
-  int row_bytes(int width) const { return width * bytes_per_value() + (width + 7) / 8; }
+  int row_bytes(int width) const;
   int invalid_value() const { return bytes_per_value() == 1 ? 0xFF : 0xFFFF; }
 };
 
@@ -50,16 +53,22 @@ struct PublisherFigures {
   RecentValues latency_ms, match_ms, skew_ms, skew_magnitude_ms;
 };
 
+/// What is shown the rows as well, because it is made of them; null: nothing. They outlive the publisher.
+struct RowFollowers {
+  ScanPublisher* scan = nullptr;
+  DepthPublisher* depth = nullptr;
+  CloudPublisher* cloud = nullptr;
+};
+
 /// Two frames are in it at most: one that workers fill and one that is being sent. Workers announce blocks of
 /// rows as they become final; the thread sends each at once, unless that is faster than the pace: then it
 /// waits, so that a burst does not overrun the receivers' socket buffers. Workers never wait for the network.
 class FramePublisher {
  public:
-  /// `size`: of the rectified image, `pixels`: what of it is published. `scan`: what is shown the rows as
-  /// well; it outlives the publisher. Null: nothing. Throws std::invalid_argument with a sentence if a block
-  /// of rows does not fit in one message.
+  /// `size`: of the rectified image, `pixels`: what of it is published. Throws std::invalid_argument with a
+  /// sentence if a block of rows does not fit in one message.
   FramePublisher(MessageBus& bus, const WireFormat& format, Size size, const PublishedPixels& pixels,
-                 ScanPublisher* scan = nullptr);
+                 const RowFollowers& followers = {});
   ~FramePublisher();
   FramePublisher(const FramePublisher&) = delete;
   FramePublisher& operator=(const FramePublisher&) = delete;
@@ -96,12 +105,14 @@ class FramePublisher {
   void enqueue(Event event) noexcept;
   void run() noexcept;
   void send_block(const OutputFrame& frame, int block) noexcept;
+  void show_followers(const OutputFrame& frame, int block) noexcept;
   void send_frame_message(const OutputFrame& frame) noexcept;
   RowRange published_rows(int block) const;
+  double bytes_of_frame() const;
   void keep_pace(std::size_t bytes) noexcept;
 
   MessageBus& bus_;
-  ScanPublisher* const scan_;
+  const RowFollowers followers_;
   const WireFormat format_;
   const PublishedPixels pixels_;
   const int blocks_;

@@ -21,6 +21,7 @@ WireFormat wire_format(const Config& config) {
   format.min_disparity = config.matcher.min_disparity;
   format.disparities = config.matcher.disparities;
   format.units_per_pixel = config.matcher.units_per_pixel();
+  format.with_depth = config.publish.depth;
   const double fps = config.cameras.fps > 0 ? config.cameras.fps : 30;
   format.spread_s = std::min(config.lcm.spread / fps, kLongestSpread);
   return format;
@@ -33,12 +34,6 @@ std::string describe(const Config& config) {
   }
   const int workers = config.worker_count();
   return text + ", " + std::to_string(workers) + (workers == 1 ? " worker" : " workers");
-}
-
-ScanPublisher* emplace_scan(std::optional<ScanPublisher>& scan, MessageBus& bus, const Config& config,
-                            const std::optional<Calibration>& calibration) {
-  if (!config.scan.enabled || !calibration) return nullptr;
-  return &scan.emplace(bus, config.lcm.prefix, config.scan, scan_camera(*calibration, config.matcher));
 }
 
 // What is published of images of this size. Throws std::invalid_argument if there is no such region.
@@ -63,6 +58,26 @@ void check_pipeline(const Config& config, Size size) {
   BandWorker(config.matcher, size, pixels.columns());
 }
 
+// What else is made of the rows; needs a calibration.
+RowFollowers Pipeline::make_followers(MessageBus& bus) {
+  if (!calibration_) return {};
+  const std::string& prefix = config_.lcm.prefix;
+  RowFollowers followers;
+  if (config_.scan.enabled) {
+    followers.scan =
+        &scan_publisher_.emplace(bus, prefix, config_.scan, scan_camera(*calibration_, config_.matcher));
+  }
+  if (config_.publish.depth) {
+    followers.depth = &depth_publisher_.emplace(bus, prefix, *calibration_, config_.matcher, pixels_,
+                                                config_.lcm.rows_per_message);
+  }
+  if (config_.publish.cloud) {
+    followers.cloud = &cloud_publisher_.emplace(bus, prefix, *calibration_, config_.matcher, pixels_,
+                                                config_.publish.cloud_step);
+  }
+  return followers;
+}
+
 // The braces see to it that the calibration is copied before the rig is moved.
 Pipeline::Pipeline(const Config& config, Rig rig, MessageBus& bus)
     : Pipeline{config, std::optional<Calibration>(rig.calibration),
@@ -79,8 +94,7 @@ Pipeline::Pipeline(const Config& config, std::optional<Calibration> calibration,
       size_(cameras_->rig().left->frame_size()),
       pixels_(published_pixels(config.publish, size_)),
       matcher_description_(describe(config)),
-      publisher_(bus, wire_format(config), size_, pixels_,
-                 emplace_scan(scan_publisher_, bus, config, calibration_)),
+      publisher_(bus, wire_format(config), size_, pixels_, make_followers(bus)),
       pool_(config.worker_count()),
       alignment_monitor_(size_, config.matcher.min_disparity, config.matcher.disparities) {
   for (int worker = 0; worker < pool_.workers(); ++worker) {

@@ -77,6 +77,7 @@ class Pipeline {
   std::string scheduling_problem() const;
 
  private:
+  RowFollowers make_followers(MessageBus& bus);
   void start();
   void retire() noexcept;
   void matching_thread() noexcept;
@@ -92,6 +93,8 @@ class Pipeline {
   const PublishedPixels pixels_;
   std::string matcher_description_;
   std::optional<ScanPublisher> scan_publisher_;
+  std::optional<DepthPublisher> depth_publisher_;
+  std::optional<CloudPublisher> cloud_publisher_;
   FramePublisher publisher_;
   WorkerPool pool_;
   std::vector<BandWorker> workers_;

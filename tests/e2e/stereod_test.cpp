@@ -367,6 +367,16 @@ INSTANTIATE_TEST_SUITE_P(
                  "cameras: {source: replay, replay: {left: left_00.png, right: right_00.png}}\nscan: "
                  "{enabled: true}\n",
                  "bad.yaml:2: scan.enabled: found true, but without a calibration no distance is known"},
+        BadStart{
+            "DepthWithoutCalibration",
+            "cameras: {source: replay, replay: {left: left_00.png, right: right_00.png}}\npublish: {depth: "
+            "true}\n",
+            "bad.yaml:2: publish.depth: found true, but without a calibration no distance is known"},
+        BadStart{
+            "CloudWithoutCalibration",
+            "cameras: {source: replay, replay: {left: left_00.png, right: right_00.png}}\npublish: {cloud: "
+            "true}\n",
+            "bad.yaml:2: publish.cloud: found true, but without a calibration no distance is known"},
         BadStart{"BadLcmUrl", "cameras: {source: synthetic}\nlcm: {url: \"carrier-pigeon://\"}\n",
                  "bad.yaml:2: lcm.url: LCM URL 'carrier-pigeon://'"}),
     [](const auto& tested) { return std::string(tested.param.name); });
