@@ -40,6 +40,11 @@ int run(int argc, char** argv) {
   const TemporaryDirectory scratch;
   Chromium browser(*program, scratch.path());
   browser.open(argv[1], 1400, 1500);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (browser.evaluate("typeof view === 'undefined' ? 0 : Math.sign(view.shown)") != "1") {
+    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("the page shows nothing.");
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
   const double seconds = std::atof(argv[2]);
   const double whole = shown_per_second(browser, seconds);
   browser.evaluate("document.getElementById('half').checked = true");

@@ -19,9 +19,10 @@ trap clean_up EXIT
 
 # Disparity rows have an interface of their own.
 ip link set lo up mtu 1500
-ip link add rows0 type dummy
+ip link add rows0 type veth peer name rows1
 ip address add 10.77.1.1/24 dev rows0
-ip link set rows0 up multicast on mtu 65535
+ip link set rows0 up mtu 65535
+ip link set rows1 up mtu 65535
 ip route add 224.0.0.0/4 dev rows0
 export LCM_DEFAULT_URL='udpm://239.255.76.67:17675?ttl=0'
 printf 'cameras: {source: synthetic, fps: 30}\nscan: {enabled: true}\nlcm: {left_image: jpeg}\n' >"$scratch/stereod.yaml"
