@@ -36,17 +36,18 @@ write_all() {
   echo
   echo 'Made from the comments of [daemon/lcmtypes](../daemon/lcmtypes) by `docs/make-messages.sh`; a test holds it to them. The'
   echo 'channel of each is the configured prefix with an ending: `_DISPARITY` (disparity_rows_t), `_FRAME` (frame_t), `_STATUS`'
-  echo '(status_t), `_CAMERA_INFO` (camera_info_t), `_SCAN` (planar_lidar_t), `_LEFT`, `_LEFT_RAW` and `_RIGHT_RAW` (image_t).'
+  echo '(status_t), `_CAMERA_INFO` (camera_info_t), `_SCAN` (planar_lidar_t), `_DEPTH` (depth_rows_t), `_CLOUD` (pointcloud_t),'
+  echo '`_LEFT`, `_LEFT_RAW` and `_RIGHT_RAW` (image_t).'
   local type
-  for type in disparity_rows frame camera_info status camera_status planar_lidar image image_metadata; do
+  for type in disparity_rows frame camera_info status camera_status planar_lidar depth_rows pointcloud image image_metadata; do
     one_message "daemon/lcmtypes/stereod_${type}_t.lcm"
   done
 }
 
 # A message that the list above does not have would go undocumented.
 count=$(find daemon/lcmtypes -name '*.lcm' | wc -l)
-if [[ $count -ne 8 ]]; then
-  echo "make-messages.sh: there are $count messages, and 8 in its list" >&2
+if [[ $count -ne 10 ]]; then
+  echo "make-messages.sh: there are $count messages, and 10 in its list" >&2
   exit 1
 fi
 

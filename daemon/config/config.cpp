@@ -6,6 +6,7 @@
 #include <sstream>
 #include <thread>
 
+#include "daemon/config/publish_section.h"
 #include "daemon/config/scan_section.h"
 #include "daemon/config/v4l2_section.h"
 #include "daemon/config/yaml_section.h"
@@ -237,6 +238,7 @@ Config read_config(const std::filesystem::path& file) {
   config.workers = root.integer("workers", config.workers, 0, 64);
   read_scheduling(root.section("scheduling"), config.scheduling);
   read_lcm(root.section("lcm"), config.lcm);
+  read_publish_section(root.section("publish"), config.publish);
   read_scan_section(root.section("scan"), config.scan);
   config.log_level = read_log_level(root.section("log"), config.log_level);
   root.finish();

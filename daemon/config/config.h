@@ -96,6 +96,16 @@ struct LcmConfig {
   LeftImageConfig left_image;
 };
 
+/// What of the disparity is published.
+struct PublishConfig {
+  int left = 0, top = 0;              ///< first column and row of the rectified image, px
+  int width = 0, height = 0;          ///< px of the rectified image; 0: up to its edge
+  int column_step = 1, row_step = 1;  ///< every so many-th
+  bool depth = false;                 ///< depth in millimetres
+  bool cloud = false;                 ///< points
+  int cloud_step = 8;                 ///< of every so many-th column and row
+};
+
 struct ScanConfig {
   bool enabled = false;
   bool fit_ground = true;  ///< false: `ground` is where the floor is
@@ -117,6 +127,7 @@ struct Config {
   int workers = 0;  ///< 0: one for each core
   SchedulingConfig scheduling;
   LcmConfig lcm;
+  PublishConfig publish;
   ScanConfig scan;
   std::string log_level = "info";
 

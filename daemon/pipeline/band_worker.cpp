@@ -6,8 +6,11 @@
 
 namespace stereod {
 
-BandWorker::BandWorker(const MatcherOptions& options, Size size)
-    : matcher_(make_band_matcher(options, size)) {}
+BandWorker::BandWorker(const MatcherOptions& options, Size size, ColumnRange wanted)
+    : wanted_(wanted),
+      matched_(columns_to_match(options, size, wanted)),
+      whole_row_(matched_.count() < size.width ? GreyImage(size.width, 1) : GreyImage()),
+      matcher_(make_band_matcher(options, {matched_.count(), size.height})) {}
 
 void BandWorker::run(const Job& job, RowRange blocks) noexcept {
   rectify_ns_ = match_ns_ = 0;
@@ -29,12 +32,25 @@ void BandWorker::run(const Job& job, RowRange blocks) noexcept {
 
 void BandWorker::rectify_rows(const Job& job, RowRange band, RowRange rows) noexcept {
   for (int y = rows.first; y < rows.end; ++y) {
-    job.left_map.grey_row(job.pair.left.frame().luma.data, y, matcher_->left_row(y));
-    job.right_map.grey_row(job.pair.right.frame().luma.data, y, matcher_->right_row(y));
+    const std::uint8_t* left = rectify_row(job.left_map, job.pair.left, y, matcher_->left_row(y));
     // Rows around the band are the neighbour's to copy.
-    if (job.left_image == nullptr || y < band.first || y >= band.end) continue;
-    std::copy_n(matcher_->left_row(y), job.left_image->width(), job.left_image->row(y));
+    if (job.left_image != nullptr && y >= band.first && y < band.end) {
+      std::copy_n(left, job.left_image->width(), job.left_image->row(y));
+    }
+    rectify_row(job.right_map, job.pair.right, y, matcher_->right_row(y));
   }
+}
+
+// Into `out` go the columns that are matched; returns the whole row.
+const std::uint8_t* BandWorker::rectify_row(const RectifyMap& map, const FrameLease& frame, int y,
+                                            std::uint8_t* out) noexcept {
+  if (whole_row_.empty()) {
+    map.grey_row(frame.frame().luma.data, y, out);
+    return out;
+  }
+  map.grey_row(frame.frame().luma.data, y, whole_row_.row(0));
+  std::copy_n(whole_row_.row(0) + matched_.first, matched_.count(), out);
+  return whole_row_.row(0);
 }
 
 void BandWorker::match_rows(const Job& job, RowRange rows) noexcept {
@@ -42,7 +58,8 @@ void BandWorker::match_rows(const Job& job, RowRange rows) noexcept {
   for (int y = rows.first; y < rows.end; ++y) {
     const RowRange done = matcher_->push(y);
     for (int row = done.first; row < done.end; ++row) {
-      std::copy_n(matcher_->disparity_row(row), disparity.width(), disparity.row(row));
+      std::copy_n(matcher_->disparity_row(row) + (wanted_.first - matched_.first), wanted_.count(),
+                  disparity.row(row) + wanted_.first);
     }
     if (!job.announce) continue;
     while (next_block_ < job.publisher.blocks() && job.publisher.block_rows(next_block_).end <= done.end) {

@@ -8,20 +8,22 @@
 #include "core/rectify_map.h"
 #include "daemon/pipeline/frame_publisher.h"
 #include "daemon/pipeline/pairing_desk.h"
+#include "daemon/pipeline/published_pixels.h"
 
 namespace stereod {
 
 /// Rectifies, matches and hands over one band at a time. Owns its matcher; shares nothing with other workers.
 class BandWorker {
  public:
-  BandWorker(const MatcherOptions& options, Size size);
+  /// `size`: of the rectified image; `wanted`: the columns of it that get disparities.
+  BandWorker(const MatcherOptions& options, Size size, ColumnRange wanted);
 
   /// What a frame's workers have in common.
   struct Job {
     const LeasedPair& pair;
     const RectifyMap& left_map;
     const RectifyMap& right_map;
-    const ValidityMask& left_mask;
+    const ValidityMask& left_mask;  ///< of the columns that are matched; the right one likewise
     const ValidityMask& right_mask;
     OutputFrame& output;
     FramePublisher& publisher;
@@ -39,8 +41,12 @@ class BandWorker {
 
  private:
   void rectify_rows(const Job& job, RowRange band, RowRange rows) noexcept;
+  const std::uint8_t* rectify_row(const RectifyMap& map, const FrameLease& frame, int y,
+                                  std::uint8_t* out) noexcept;
   void match_rows(const Job& job, RowRange rows) noexcept;
 
+  const ColumnRange wanted_, matched_;
+  GreyImage whole_row_;  // if less than that is matched
   std::unique_ptr<BandMatcher> matcher_;
   std::int64_t rectify_ns_ = 0, match_ns_ = 0;
   int next_block_ = 0;  // the next one to be announced

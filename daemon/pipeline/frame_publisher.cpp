@@ -16,13 +16,9 @@ constexpr std::int64_t kBurstBytes = 96'000;  // fits a default socket buffer (2
 
 }  // namespace
 
-std::optional<std::string> wire_problem(const WireFormat& format, Size size) {
-  if (size.width > kLargestImageSide || size.height > kLargestImageSide) {
-    return "the cameras give images of " + std::to_string(size.width) + "×" + std::to_string(size.height) +
-           "; what can be published is " + std::to_string(kLargestImageSide) + " a side";
-  }
+std::optional<std::string> wire_problem(const WireFormat& format, Size published) {
   constexpr int kRoom = kLargestDatagram - kHeaderAllowance;
-  const int row_bytes = format.row_bytes(size.width);
+  const int row_bytes = format.row_bytes(published.width);
   if (format.rows_per_message * row_bytes <= kRoom) return std::nullopt;
   return "found " + std::to_string(format.rows_per_message) + ", but rows of " + std::to_string(row_bytes) +
          " bytes are sent and a message holds " + std::to_string(kRoom) + ", so allowed are 1 to " +
@@ -33,40 +29,54 @@ int WireFormat::bytes_per_value() const {
   return (min_disparity + disparities - 1) * units_per_pixel < 0xFF ? 1 : 2;
 }
 
-FramePublisher::FramePublisher(MessageBus& bus, const WireFormat& format, Size size, ScanPublisher* scan)
+int WireFormat::row_bytes(int width) const {
+  const int disparity = width * bytes_per_value() + (width + 7) / 8;
+  return with_depth ? std::max(disparity, width * DepthPublisher::kBytesPerValue) : disparity;
+}
+
+FramePublisher::FramePublisher(MessageBus& bus, const WireFormat& format, Size size,
+                               const PublishedPixels& pixels, const RowFollowers& followers)
     : bus_(bus),
-      scan_(scan),
+      followers_(followers),
       format_(format),
-      size_(size),
-      blocks_((size.height + format.rows_per_message - 1) / format.rows_per_message),
+      pixels_(pixels),
+      blocks_((pixels.height + format.rows_per_message - 1) / format.rows_per_message),
       rows_channel_(format.prefix + "_DISPARITY"),
       frame_channel_(format.prefix + "_FRAME"),
       frames_{OutputFrame(size), OutputFrame(size)},
       events_(static_cast<std::size_t>(kFrames) * (static_cast<std::size_t>(blocks_) + 1)),
       encoder_(kLargestDatagram) {
-  if (const auto problem = wire_problem(format, size)) throw std::invalid_argument(*problem);
+  if (const auto problem = wire_problem(format, pixels.size())) throw std::invalid_argument(*problem);
   for (OutputFrame& frame : frames_) free_.push_back(&frame);
-  reserve_rows(rows_message_, size.width, format.rows_per_message, format.bytes_per_value());
-  rows_message_.width = size.width;
-  rows_message_.height = size.height;
-  rows_message_.column_step = rows_message_.row_step = 1;
+  reserve_rows(rows_message_, pixels.width, format.rows_per_message, format.bytes_per_value());
+  rows_message_.width = pixels.width;
+  rows_message_.height = pixels.height;
+  rows_message_.left = pixels.left;
+  rows_message_.top = pixels.top;
+  rows_message_.column_step = pixels.column_step;
+  rows_message_.row_step = pixels.row_step;
   rows_message_.min_disparity = format.min_disparity;
   rows_message_.disparities = format.disparities;
   rows_message_.scale = 1.0f / static_cast<float>(format.units_per_pixel);
   rows_message_.bytes_per_value = static_cast<std::int8_t>(format.bytes_per_value());
   rows_message_.invalid = format.invalid_value();
-  frame_message_.width = size.width;
-  frame_message_.height = size.height;
-  frame_message_.rows = size.height;
+  frame_message_.width = pixels.width;
+  frame_message_.height = frame_message_.rows = pixels.height;
   frame_message_.messages = blocks_;
   thread_ = std::thread([this] { run(); });
 }
 
 FramePublisher::~FramePublisher() { stop(); }
 
-RowRange FramePublisher::block_rows(int block) const {
+RowRange FramePublisher::published_rows(int block) const {
   const int first = block * format_.rows_per_message;
-  return {first, std::min(first + format_.rows_per_message, size_.height)};
+  return {first, std::min(first + format_.rows_per_message, pixels_.height)};
+}
+
+RowRange FramePublisher::block_rows(int block) const {
+  const RowRange rows = published_rows(block);
+  return {pixels_.top + rows.first * pixels_.row_step,
+          std::min(pixels_.top + rows.end * pixels_.row_step, pixels_.rows().end)};
 }
 
 OutputFrame* FramePublisher::wait_free() noexcept {
@@ -144,16 +154,26 @@ void FramePublisher::run() noexcept {
 }
 
 void FramePublisher::send_block(const OutputFrame& frame, int block) noexcept {
-  const RowRange rows = block_rows(block);
   rows_message_.utime = frame.facts.utime;
   rows_message_.frame = frame.facts.frame;
-  rows_message_.first_row = rows.first;
-  rows_message_.row_count = rows.count();
-  measured_pixels_ += encode_rows(frame.disparity.view(), rows, rows_message_);
+  measured_pixels_ += encode_rows(frame.disparity.view(), published_rows(block), rows_message_);
   keep_pace(static_cast<std::size_t>(rows_message_.size + rows_message_.filled_size));
   if (!encoder_.publish(bus_, rows_channel_.c_str(), rows_message_)) ++refused_;
-  if (scan_ == nullptr) return;
-  for (int y = rows.first; y < rows.end; ++y) scan_->add_row(y, frame.disparity.row(y));
+  show_followers(frame, block);
+}
+
+void FramePublisher::show_followers(const OutputFrame& frame, int block) noexcept {
+  if (followers_.depth != nullptr) {
+    const RowRange published = published_rows(block);
+    keep_pace(static_cast<std::size_t>(published.count() * pixels_.width * DepthPublisher::kBytesPerValue));
+    if (!followers_.depth->send_rows(frame.facts, frame.disparity.view(), published)) ++refused_;
+  }
+  if (followers_.scan == nullptr && followers_.cloud == nullptr) return;
+  const RowRange rows = block_rows(block);
+  for (int y = rows.first; y < rows.end; ++y) {
+    if (followers_.scan != nullptr) followers_.scan->add_row(y, frame.disparity.row(y));
+    if (followers_.cloud != nullptr) followers_.cloud->add_row(y, frame.disparity.row(y));
+  }
 }
 
 void FramePublisher::send_frame_message(const OutputFrame& frame) noexcept {
@@ -161,7 +181,7 @@ void FramePublisher::send_frame_message(const OutputFrame& frame) noexcept {
   const std::int64_t captured_ns = std::max(facts.left_ns, facts.right_ns);
   const std::int64_t sent_ns = monotonic_ns();
   const auto us = [](std::int64_t ns) { return static_cast<std::int32_t>(ns / 1000); };
-  const double pixels = static_cast<double>(size_.width) * size_.height;
+  const double pixels = static_cast<double>(pixels_.width) * pixels_.height;
   frame_message_.utime = facts.utime;
   frame_message_.frame = facts.frame;
   frame_message_.valid_fraction = static_cast<float>(static_cast<double>(measured_pixels_) / pixels);
@@ -174,8 +194,12 @@ void FramePublisher::send_frame_message(const OutputFrame& frame) noexcept {
   frame_message_.filter_us = us(facts.filter_ns);
   frame_message_.publish_us = us(sent_ns - facts.matched_ns);
   frame_message_.latency_us = us(sent_ns - captured_ns);
-  if (scan_ != nullptr && !scan_->finish(frame_message_)) ++refused_;
+  if (followers_.scan != nullptr && !followers_.scan->finish(frame_message_)) ++refused_;
   if (!encoder_.publish(bus_, frame_channel_.c_str(), frame_message_)) ++refused_;
+  if (followers_.cloud != nullptr) {
+    keep_pace(followers_.cloud->bytes());
+    if (!followers_.cloud->finish(facts)) ++refused_;
+  }
 
   const std::lock_guard lock(mutex_);
   ++figures_.frames;
@@ -188,11 +212,15 @@ void FramePublisher::send_frame_message(const OutputFrame& frame) noexcept {
   measured_pixels_ = 0;
 }
 
+double FramePublisher::bytes_of_frame() const {
+  const int bytes = format_.bytes_per_value() + (format_.with_depth ? DepthPublisher::kBytesPerValue : 0);
+  return static_cast<double>(pixels_.width) * pixels_.height * bytes;
+}
+
 // Lets a burst through, then no more bytes than the spread allows.
 void FramePublisher::keep_pace(std::size_t bytes) noexcept {
   if (format_.spread_s <= 0) return;
-  const double frame_bytes = static_cast<double>(size_.width) * size_.height * format_.bytes_per_value();
-  const double ns_per_byte = format_.spread_s * 1e9 / frame_bytes;
+  const double ns_per_byte = format_.spread_s * 1e9 / bytes_of_frame();
   const std::int64_t now = monotonic_ns();
   const auto burst_ns = static_cast<std::int64_t>(ns_per_byte * static_cast<double>(kBurstBytes));
   paced_until_ns_ = std::max(paced_until_ns_, now - burst_ns) +

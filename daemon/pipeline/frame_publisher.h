@@ -10,7 +10,10 @@
 #include <thread>
 #include <vector>
 
+#include "daemon/pipeline/cloud_publisher.h"
+#include "daemon/pipeline/depth_publisher.h"
 #include "daemon/pipeline/output_frame.h"
+#include "daemon/pipeline/published_pixels.h"
 #include "daemon/pipeline/recent_values.h"
 #include "daemon/pipeline/rows_encoder.h"
 #include "daemon/pipeline/scan_publisher.h"
@@ -28,17 +31,19 @@ struct WireFormat {
   int min_disparity = 0;
   int disparities = 1;
   int units_per_pixel = 1;
-  double spread_s = 0;  ///< time over which one frame's rows are spread out; 0: sent as they come
+  bool with_depth = false;  ///< the same rows go out once more, as depth
+  double spread_s = 0;      ///< time over which one frame's rows are spread out; 0: sent as they come
 
   /// 1 if every value and the invalid one fit in a byte, else 2.
   int bytes_per_value() const;
   /// What a row takes in a message at most, the bits of its filled pixels included.
-  int row_bytes(int width) const { return width * bytes_per_value() + (width + 7) / 8; }
+  int row_bytes(int width) const;
   int invalid_value() const { return bytes_per_value() == 1 ? 0xFF : 0xFFFF; }
 };
 
-/// Why images of this size cannot be published like this, as a sentence; nothing if they can.
-std::optional<std::string> wire_problem(const WireFormat& format, Size size);
+/// Why disparity images of this size (what of them is published) cannot go onto the wire like this, as a
+/// sentence; nothing if they can.
+std::optional<std::string> wire_problem(const WireFormat& format, Size published);
 
 /// Figures about what was published. The recent ones are since the last take_figures().
 struct PublisherFigures {
@@ -48,20 +53,29 @@ struct PublisherFigures {
   RecentValues latency_ms, match_ms, skew_ms, skew_magnitude_ms;
 };
 
+/// What is shown the rows as well, because it is made of them; null: nothing. They outlive the publisher.
+struct RowFollowers {
+  ScanPublisher* scan = nullptr;
+  DepthPublisher* depth = nullptr;
+  CloudPublisher* cloud = nullptr;
+};
+
 /// Two frames are in it at most: one that workers fill and one that is being sent. Workers announce blocks of
 /// rows as they become final; the thread sends each at once, unless that is faster than the pace: then it
 /// waits, so that a burst does not overrun the receivers' socket buffers. Workers never wait for the network.
 class FramePublisher {
  public:
-  /// `scan`: what is shown the rows as well; it outlives the publisher. Null: nothing. Throws
-  /// std::invalid_argument with a sentence if a block of rows does not fit in one message.
-  FramePublisher(MessageBus& bus, const WireFormat& format, Size size, ScanPublisher* scan = nullptr);
+  /// `size`: of the rectified image, `pixels`: what of it is published. Throws std::invalid_argument with a
+  /// sentence if a block of rows does not fit in one message.
+  FramePublisher(MessageBus& bus, const WireFormat& format, Size size, const PublishedPixels& pixels,
+                 const RowFollowers& followers = {});
   ~FramePublisher();
   FramePublisher(const FramePublisher&) = delete;
   FramePublisher& operator=(const FramePublisher&) = delete;
 
-  /// Rows are announced by blocks: block b is the rows [b·rows_per_message, …).
+  /// Rows are announced by blocks: block b is the published rows [b·rows_per_message, …).
   int blocks() const { return blocks_; }
+  /// The rows of the rectified image that a block is made of, those between the published ones included.
   RowRange block_rows(int block) const;
 
   /// A frame to fill; waits until one is free. Null once stop() was called.
@@ -91,13 +105,16 @@ class FramePublisher {
   void enqueue(Event event) noexcept;
   void run() noexcept;
   void send_block(const OutputFrame& frame, int block) noexcept;
+  void show_followers(const OutputFrame& frame, int block) noexcept;
   void send_frame_message(const OutputFrame& frame) noexcept;
+  RowRange published_rows(int block) const;
+  double bytes_of_frame() const;
   void keep_pace(std::size_t bytes) noexcept;
 
   MessageBus& bus_;
-  ScanPublisher* const scan_;
+  const RowFollowers followers_;
   const WireFormat format_;
-  const Size size_;
+  const PublishedPixels pixels_;
   const int blocks_;
   const std::string rows_channel_, frame_channel_;
 

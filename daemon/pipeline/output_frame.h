@@ -1,6 +1,7 @@
 // A frame's result on its way from the workers to the network.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/disparity.h"
@@ -22,8 +23,10 @@ struct FrameFacts {
 
 /// The disparities of one frame and where they come from.
 struct OutputFrame {
-  explicit OutputFrame(Size size) : disparity(size) {}
-  DisparityImage disparity;
+  explicit OutputFrame(Size size) : disparity(size) {
+    for (int y = 0; y < size.height; ++y) std::fill_n(disparity.row(y), size.width, kInvalidDisparity);
+  }
+  DisparityImage disparity;  ///< of the whole rectified image; never written outside the published region
   FrameFacts facts;
 };
 

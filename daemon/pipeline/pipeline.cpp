@@ -7,6 +7,7 @@
 #include "core/match/isa.h"
 #include "daemon/pipeline/clocks.h"
 #include "daemon/pipeline/worker_scheduling.h"
+#include "daemon/publish/wire_limits.h"
 
 namespace stereod {
 namespace {
@@ -20,6 +21,7 @@ WireFormat wire_format(const Config& config) {
   format.min_disparity = config.matcher.min_disparity;
   format.disparities = config.matcher.disparities;
   format.units_per_pixel = config.matcher.units_per_pixel();
+  format.with_depth = config.publish.depth;
   const double fps = config.cameras.fps > 0 ? config.cameras.fps : 30;
   format.spread_s = std::min(config.lcm.spread / fps, kLongestSpread);
   return format;
@@ -34,10 +36,15 @@ std::string describe(const Config& config) {
   return text + ", " + std::to_string(workers) + (workers == 1 ? " worker" : " workers");
 }
 
-ScanPublisher* emplace_scan(std::optional<ScanPublisher>& scan, MessageBus& bus, const Config& config,
-                            const std::optional<Calibration>& calibration) {
-  if (!config.scan.enabled || !calibration) return nullptr;
-  return &scan.emplace(bus, config.lcm.prefix, config.scan, scan_camera(*calibration, config.matcher));
+// What is published of images of this size. Throws std::invalid_argument if there is no such region.
+PublishedPixels published_pixels(const PublishConfig& publish, Size size) {
+  if (size.width > kLargestImageSide || size.height > kLargestImageSide) {
+    throw std::invalid_argument("the cameras give images of " + std::to_string(size.width) + "×" +
+                                std::to_string(size.height) + "; what can be published is " +
+                                std::to_string(kLargestImageSide) + " a side");
+  }
+  if (const auto problem = region_problem(publish, size)) throw std::invalid_argument(*problem);
+  return {publish, size};
 }
 
 SourceLayout layout_of(const LumaView& luma) { return {luma.size, luma.row_stride, luma.pixel_stride}; }
@@ -45,8 +52,30 @@ SourceLayout layout_of(const LumaView& luma) { return {luma.size, luma.row_strid
 }  // namespace
 
 void check_pipeline(const Config& config, Size size) {
-  if (const auto problem = wire_problem(wire_format(config), size)) throw std::invalid_argument(*problem);
-  make_band_matcher(config.matcher, size);
+  const PublishedPixels pixels = published_pixels(config.publish, size);
+  if (const auto problem = wire_problem(wire_format(config), pixels.size()))
+    throw std::invalid_argument(*problem);
+  BandWorker(config.matcher, size, pixels.columns());
+}
+
+// What else is made of the rows; needs a calibration.
+RowFollowers Pipeline::make_followers(MessageBus& bus) {
+  if (!calibration_) return {};
+  const std::string& prefix = config_.lcm.prefix;
+  RowFollowers followers;
+  if (config_.scan.enabled) {
+    followers.scan =
+        &scan_publisher_.emplace(bus, prefix, config_.scan, scan_camera(*calibration_, config_.matcher));
+  }
+  if (config_.publish.depth) {
+    followers.depth = &depth_publisher_.emplace(bus, prefix, *calibration_, config_.matcher, pixels_,
+                                                config_.lcm.rows_per_message);
+  }
+  if (config_.publish.cloud) {
+    followers.cloud = &cloud_publisher_.emplace(bus, prefix, *calibration_, config_.matcher, pixels_,
+                                                config_.publish.cloud_step);
+  }
+  return followers;
 }
 
 // The braces see to it that the calibration is copied before the rig is moved.
@@ -63,12 +92,17 @@ Pipeline::Pipeline(const Config& config, std::optional<Calibration> calibration,
       cameras_(std::move(cameras)),
       calibration_(std::move(calibration)),
       size_(cameras_->rig().left->frame_size()),
+      pixels_(published_pixels(config.publish, size_)),
       matcher_description_(describe(config)),
-      publisher_(bus, wire_format(config), size_, emplace_scan(scan_publisher_, bus, config, calibration_)),
+      publisher_(bus, wire_format(config), size_, pixels_, make_followers(bus)),
       pool_(config.worker_count()),
       alignment_monitor_(size_, config.matcher.min_disparity, config.matcher.disparities) {
-  for (int worker = 0; worker < pool_.workers(); ++worker) workers_.emplace_back(config.matcher, size_);
-  if (config.matcher.speckle_size > 0) speckle_filter_.emplace(size_);
+  for (int worker = 0; worker < pool_.workers(); ++worker) {
+    workers_.emplace_back(config.matcher, size_, pixels_.columns());
+  }
+  if (config.matcher.speckle_size > 0) {
+    speckle_filter_.emplace(Size{pixels_.columns().count(), pixels_.rows().count()});
+  }
   if (config.lcm.raw_images) {
     raw_publisher_.emplace(bus, config.lcm.prefix, config.lcm.raw_images_per_second, size_);
   }
@@ -169,8 +203,9 @@ void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
   const std::int64_t match_ns = facts.matched_ns - facts.started_ns;
   publisher_.frame_final(output);
   // After what is urgent.
-  alignment_monitor_.frame_matched({*left_map_, *left_mask_, pair.left.frame().luma.data},
-                                   {*right_map_, *right_mask_, pair.right.frame().luma.data}, match_ns);
+  alignment_monitor_.frame_matched({*left_map_, *left_masks_.whole, pair.left.frame().luma.data},
+                                   {*right_map_, *right_masks_.whole, pair.right.frame().luma.data},
+                                   match_ns);
   if (raw_publisher_) raw_publisher_->offer(pair, facts.utime);
 }
 
@@ -178,20 +213,24 @@ void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
 // changes.
 void Pipeline::prepare_maps(const SourceLayout& left, const SourceLayout& right) {
   const Interpolation interpolation = config_.rectify.interpolation;
-  const auto prepare = [interpolation](std::optional<RectifyMap>& map, std::optional<ValidityMask>& mask,
-                                       const SourceLayout& layout, const CameraCalibration* camera) {
+  const ColumnRange matched = columns_to_match(config_.matcher, size_, pixels_.columns());
+  const auto prepare = [&](std::optional<RectifyMap>& map, Masks& masks, const SourceLayout& layout,
+                           const CameraCalibration* camera) {
     if (map && map->layout() == layout) return;
     map.emplace(camera != nullptr ? RectifyMap(*camera, layout, interpolation)
                                   : RectifyMap::identity(layout));
-    mask.emplace(map->mask());
+    masks.whole.emplace(map->mask());
+    if (matched.count() == size_.width) return;
+    masks.matched.emplace(Size{matched.count(), size_.height},
+                          [&](int x, int y) { return map->offset(matched.first + x, y) >= 0; });
   };
-  prepare(left_map_, left_mask_, left, calibration_ ? &calibration_->left : nullptr);
-  prepare(right_map_, right_mask_, right, calibration_ ? &calibration_->right : nullptr);
+  prepare(left_map_, left_masks_, left, calibration_ ? &calibration_->left : nullptr);
+  prepare(right_map_, right_masks_, right, calibration_ ? &calibration_->right : nullptr);
 }
 
 void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {
   GreyImage* const left_image = left_publisher_ ? left_publisher_->take_if_due() : nullptr;
-  const BandWorker::Job job{pair,   *left_map_, *right_map_, *left_mask_,     *right_mask_,
+  const BandWorker::Job job{pair,   *left_map_, *right_map_, left_masks_.matching(), right_masks_.matching(),
                             output, publisher_, left_image,  !speckle_filter_};
   const int blocks = publisher_.blocks();
   const int bands = std::min(pool_.workers(), blocks);
@@ -205,13 +244,21 @@ void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {
   }
   output.facts.rectify_ns = rectify_ns / bands;
   output.facts.match_ns = match_ns / bands;
-  if (left_image != nullptr) left_publisher_->send(output.facts.utime);
+  if (left_image == nullptr) return;
+  // The left image is a whole one, whatever was matched.
+  const std::uint8_t* source = pair.left.frame().luma.data;
+  left_map_->grey_rows(source, {0, pixels_.rows().first}, left_image->view());
+  left_map_->grey_rows(source, {pixels_.rows().end, size_.height}, left_image->view());
+  left_publisher_->send(output.facts.utime);
 }
 
 void Pipeline::filter_frame(OutputFrame& output) noexcept {
   const std::int64_t begin = monotonic_ns();
   const MatcherOptions& options = config_.matcher;
-  speckle_filter_->apply(output.disparity.view(), options.speckle_size,
+  const Size region{pixels_.columns().count(), pixels_.rows().count()};
+  const ImageView<std::int16_t> published(output.disparity.row(pixels_.top) + pixels_.left, region.width,
+                                          region.height, output.disparity.view().stride());
+  speckle_filter_->apply(published, options.speckle_size,
                          options.speckle_max_diff * options.units_per_pixel());
   output.facts.filter_ns = monotonic_ns() - begin;
   for (int block = 0; block < publisher_.blocks(); ++block) publisher_.block_final(output, block);

@@ -77,6 +77,7 @@ class Pipeline {
   std::string scheduling_problem() const;
 
  private:
+  RowFollowers make_followers(MessageBus& bus);
   void start();
   void retire() noexcept;
   void matching_thread() noexcept;
@@ -89,8 +90,11 @@ class Pipeline {
   std::shared_ptr<Cameras> cameras_;
   const std::optional<Calibration> calibration_;
   const Size size_;
+  const PublishedPixels pixels_;
   std::string matcher_description_;
   std::optional<ScanPublisher> scan_publisher_;
+  std::optional<DepthPublisher> depth_publisher_;
+  std::optional<CloudPublisher> cloud_publisher_;
   FramePublisher publisher_;
   WorkerPool pool_;
   std::vector<BandWorker> workers_;
@@ -98,7 +102,12 @@ class Pipeline {
   std::optional<RawPublisher> raw_publisher_;
   std::optional<LeftPublisher> left_publisher_;
   std::optional<RectifyMap> left_map_, right_map_;
-  std::optional<ValidityMask> left_mask_, right_mask_;  // of the maps
+  /// Of a map: of all columns, and of those that are matched if these are fewer.
+  struct Masks {
+    std::optional<ValidityMask> whole, matched;
+    const ValidityMask& matching() const { return matched ? *matched : *whole; }
+  };
+  Masks left_masks_, right_masks_;
   mutable std::mutex scheduling_mutex_;
   std::string scheduling_problem_;
   AlignmentMonitor alignment_monitor_;

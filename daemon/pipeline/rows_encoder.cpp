@@ -11,22 +11,43 @@ int bit_bytes(int width) { return (width + 7) / 8; }
 /// What is sent of a pixel; kInvalidDisparity becomes 255 or 65535.
 std::int16_t wire_value(std::int16_t value) { return is_filled(value) ? filled_disparity(value) : value; }
 
-void encode_values(const std::int16_t* in, int width, int bytes_per_value, std::uint8_t* out) {
+/// Pixels of a row, every `step`-th.
+struct Every {
+  const std::int16_t* row;
+  int step;
+  std::int16_t operator[](std::ptrdiff_t u) const { return row[u * step]; }
+};
+
+/// How many pixels of some rows were measured, and how many filled.
+struct Counts {
+  std::int64_t measured = 0, filled = 0;
+};
+
+// `Row` is a pointer, so that vector instructions do it, or an Every.
+template <typename Row>
+void encode_row(Row in, int width, int bytes_per_value, std::uint8_t* out, Counts& counts) {
+  int measured = 0, filled = 0;
+  for (std::ptrdiff_t u = 0; u < width; ++u) {
+    measured += in[u] >= 0 ? 1 : 0;
+    filled += is_filled(in[u]) ? 1 : 0;
+  }
+  counts.measured += measured;
+  counts.filled += filled;
   if (bytes_per_value == 1) {
-    for (int x = 0; x < width; ++x) out[x] = static_cast<std::uint8_t>(wire_value(in[x]));
+    for (std::ptrdiff_t u = 0; u < width; ++u) out[u] = static_cast<std::uint8_t>(wire_value(in[u]));
     return;
   }
-  for (std::ptrdiff_t x = 0; x < width; ++x) {
-    const auto value = static_cast<std::uint16_t>(wire_value(in[x]));
-    out[2 * x] = static_cast<std::uint8_t>(value);
-    out[2 * x + 1] = static_cast<std::uint8_t>(value >> 8);
+  for (std::ptrdiff_t u = 0; u < width; ++u) {
+    const auto value = static_cast<std::uint16_t>(wire_value(in[u]));
+    out[2 * u] = static_cast<std::uint8_t>(value);
+    out[2 * u + 1] = static_cast<std::uint8_t>(value >> 8);
   }
 }
 
-void encode_filled(const std::int16_t* in, int width, std::uint8_t* out) {
+void encode_bits(Every in, int width, std::uint8_t* out) {
   std::fill_n(out, bit_bytes(width), std::uint8_t{0});
-  for (int x = 0; x < width; ++x) {
-    if (is_filled(in[x])) out[x / 8] = static_cast<std::uint8_t>(out[x / 8] | 1U << (x % 8));
+  for (int u = 0; u < width; ++u) {
+    if (is_filled(in[u])) out[u / 8] = static_cast<std::uint8_t>(out[u / 8] | 1U << (u % 8));
   }
 }
 
@@ -39,31 +60,29 @@ void reserve_rows(disparity_rows_t& message, int width, int rows, int bytes_per_
 
 std::int64_t encode_rows(DisparityView disparity, RowRange rows, disparity_rows_t& message) noexcept {
   const int width = message.width;
+  const auto row = [&](int v) { return disparity.row(message.top + v * message.row_step) + message.left; };
+  message.first_row = rows.first;
   message.row_count = rows.count();
   message.size = rows.count() * width * message.bytes_per_value;
   message.data.resize(static_cast<std::size_t>(message.size));
+  Counts counts;
   std::uint8_t* out = message.data.data();
-  std::int64_t measured = 0, filled = 0;
-  for (int y = rows.first; y < rows.end; ++y) {
-    const std::int16_t* in = disparity.row(y);
-    int row_measured = 0, row_filled = 0;
-    for (int x = 0; x < width; ++x) {
-      row_measured += in[x] >= 0 ? 1 : 0;
-      row_filled += is_filled(in[x]) ? 1 : 0;
+  for (int v = rows.first; v < rows.end; ++v) {
+    if (message.column_step == 1) {
+      encode_row(row(v), width, message.bytes_per_value, out, counts);
+    } else {
+      encode_row(Every{row(v), message.column_step}, width, message.bytes_per_value, out, counts);
     }
-    encode_values(in, width, message.bytes_per_value, out);
     out += std::ptrdiff_t{width} * message.bytes_per_value;
-    measured += row_measured;
-    filled += row_filled;
   }
-  message.filled_size = filled > 0 ? rows.count() * bit_bytes(width) : 0;
+  message.filled_size = counts.filled > 0 ? rows.count() * bit_bytes(width) : 0;
   message.filled.resize(static_cast<std::size_t>(message.filled_size));
-  if (filled == 0) return measured;
+  if (counts.filled == 0) return counts.measured;
   std::uint8_t* bits = message.filled.data();
-  for (int y = rows.first; y < rows.end; ++y, bits += bit_bytes(width)) {
-    encode_filled(disparity.row(y), width, bits);
+  for (int v = rows.first; v < rows.end; ++v, bits += bit_bytes(width)) {
+    encode_bits({row(v), message.column_step}, width, bits);
   }
-  return measured;
+  return counts.measured;
 }
 
 }  // namespace stereod

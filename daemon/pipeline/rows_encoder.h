@@ -11,9 +11,10 @@ namespace stereod {
 /// Makes room in the message for `rows` rows of `width` pixels, so that encode_rows() allocates nothing.
 void reserve_rows(disparity_rows_t& message, int width, int rows, int bytes_per_value);
 
-/// Writes rows into the message's `data` and `filled`, with their sizes and `row_count`; its width and
-/// bytes_per_value are set already. A filled disparity is written like a measured one, and its bit is set;
-/// `filled` is empty if there is none in these rows. Returns how many pixels were measured.
+/// Writes rows of what is published into the message's `data` and `filled`, with their sizes, `first_row` and
+/// `row_count`; its other numbers are set already, and say where in `disparity`, the rectified image's, the
+/// pixels are. A filled disparity is written like a measured one, and its bit is set; `filled` is empty if
+/// there is none in these rows. Returns how many pixels were measured.
 std::int64_t encode_rows(DisparityView disparity, RowRange rows, disparity_rows_t& message) noexcept;
 
 }  // namespace stereod

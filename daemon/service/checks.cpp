@@ -29,16 +29,26 @@ void check_frame_size(const Config& config, const std::filesystem::path& file, S
     check_pipeline(config, size);
   } catch (const std::invalid_argument& error) {
     const bool too_large = std::max(size.width, size.height) > kLargestImageSide;
-    throw FileError(place_of(file, too_large ? "cameras" : "lcm.rows_per_message") + ": " + error.what());
+    const bool outside = region_problem(config.publish, size).has_value();
+    throw FileError(place_of(file, too_large ? "cameras"
+                                   : outside ? "publish.region"
+                                             : "lcm.rows_per_message") +
+                    ": " + error.what());
   }
 }
 
 void check_calibration(const Config& config, const std::filesystem::path& file,
                        const std::optional<Calibration>& calibration) {
-  if (!config.scan.enabled || calibration) return;
-  throw FileError(
-      place_of(file, "scan.enabled") +
-      ": found true, but without a calibration no distance is known; give one, or allowed is false");
+  if (calibration) return;
+  const auto refuse = [&file](bool wanted, const char* key) {
+    if (!wanted) return;
+    throw FileError(
+        place_of(file, key) +
+        ": found true, but without a calibration no distance is known; give one, or allowed is false");
+  };
+  refuse(config.scan.enabled, "scan.enabled");
+  refuse(config.publish.depth, "publish.depth");
+  refuse(config.publish.cloud, "publish.cloud");
 }
 
 Rig open_checked_rig(const Config& config, const std::filesystem::path& file) {

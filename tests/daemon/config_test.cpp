@@ -74,6 +74,8 @@ rectify: {interpolation: nearest, zoom: 0.25}
 workers: 3
 scheduling: {priority: 10, cpus: "0,2-4"}
 lcm: {url: "memq://", prefix: FRONT, rows_per_message: 8, spread: 0.5, left_image: grey, left_images_per_second: 3}
+publish: {region: {left: 8, top: 100, width: 600, height: 300}, column_step: 2, row_step: 3,
+          depth: true, cloud: true, cloud_step: 4}
 scan:
   enabled: true
   ground: given
@@ -126,6 +128,15 @@ log: {level: debug}
   EXPECT_TRUE(config.lcm.left_image.enabled);
   EXPECT_FALSE(config.lcm.left_image.jpeg);
   EXPECT_EQ(config.lcm.left_image.per_second, 3);
+  EXPECT_EQ(config.publish.left, 8);
+  EXPECT_EQ(config.publish.top, 100);
+  EXPECT_EQ(config.publish.width, 600);
+  EXPECT_EQ(config.publish.height, 300);
+  EXPECT_EQ(config.publish.column_step, 2);
+  EXPECT_EQ(config.publish.row_step, 3);
+  EXPECT_TRUE(config.publish.depth);
+  EXPECT_TRUE(config.publish.cloud);
+  EXPECT_EQ(config.publish.cloud_step, 4);
   EXPECT_TRUE(config.scan.enabled);
   EXPECT_FALSE(config.scan.fit_ground);
   EXPECT_EQ(config.scan.ground.height_m, 0.31);
@@ -202,6 +213,18 @@ INSTANTIATE_TEST_SUITE_P(
                   "stereod.yaml: cameras.log.file: found nothing, needed is the name of an LCM log"},
         BadConfig{"cameras: {source: synthetic}\nlcm: {left_image: png}\n",
                   "stereod.yaml:2: lcm.left_image: found 'png', allowed are off, jpeg and grey"},
+        BadConfig{"cameras: {source: synthetic}\npublish: {cloud_step: 65}\n",
+                  "stereod.yaml:2: publish.cloud_step: found '65', allowed are whole numbers from 1 to 64"},
+        BadConfig{"cameras: {source: synthetic}\npublish: {depth: mm}\n",
+                  "stereod.yaml:2: publish.depth: found 'mm', allowed are true and false"},
+        BadConfig{"cameras: {source: synthetic}\npublish: {row_step: 0}\n",
+                  "stereod.yaml:2: publish.row_step: found '0', allowed are whole numbers from 1 to 64"},
+        BadConfig{
+            "cameras: {source: synthetic}\npublish: {region: {left: -1}}\n",
+            "stereod.yaml:2: publish.region.left: found '-1', allowed are whole numbers from 0 to 4096"},
+        BadConfig{
+            "cameras: {source: synthetic}\npublish: {region: {right: 3}}\n",
+            "stereod.yaml:2: publish.region.right: is not a known key; the nearest known key is 'height'"},
         BadConfig{"cameras: {source: synthetic}\nscan: {ground: guess}\n",
                   "stereod.yaml:2: scan.ground: found 'guess', allowed are fit and given"},
         BadConfig{"cameras:\nlcm: {}\n", "stereod.yaml:1: cameras.source: is missing"},

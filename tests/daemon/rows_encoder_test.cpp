@@ -45,7 +45,6 @@ TEST(RowsEncoder, SendsMeasuredFilledAndMissingPixels) {
     image.at(0, 2) = as_filled(0);
     image.at(1, 2) = as_filled(static_cast<std::int16_t>(largest));
     disparity_rows_t message = message_for(bytes_per_value);
-    message.first_row = 2;
     std::int64_t measured = 0;
     EXPECT_GT(measured = encode_rows(image.view(), {2, 5}, message), 0);
     ASSERT_TRUE(is_sane(message));
@@ -76,6 +75,36 @@ TEST(RowsEncoder, SendsNoBitsWhereNothingIsFilled) {
   EXPECT_EQ(encode_rows(image.view(), {0, 3}, message), 3 * kSize.width - 1);
   EXPECT_EQ(message.filled_size, 0);
   EXPECT_TRUE(message.filled.empty());
+}
+
+TEST(RowsEncoder, TakesEverySoManyThColumnAndRowFromACorner) {
+  Random random(12);
+  DisparityImage image(48, 20);
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const auto value = static_cast<std::int16_t>(random.between(0, 4095));
+      image.at(x, y) = random.one_in(3) ? kInvalidDisparity : random.one_in(2) ? as_filled(value) : value;
+    }
+  }
+  disparity_rows_t message = message_for(2);
+  message.width = 10;
+  message.height = 5;
+  message.left = 7;
+  message.top = 3;
+  message.column_step = 4;
+  message.row_step = 3;
+  encode_rows(image.view(), {1, 4}, message);
+  ASSERT_TRUE(is_sane(message));
+  EXPECT_EQ(message.first_row, 1);
+  const RowBlock block(message);
+  for (int v = 1; v < 4; ++v) {
+    for (int u = 0; u < 10; ++u) {
+      const std::int16_t value = image.at(7 + 4 * u, 3 + 3 * v);
+      EXPECT_EQ(block.is_filled(u, v), is_filled(value));
+      EXPECT_EQ(block.at(u, v, Pixels::kMeasuredOrFilled),
+                is_filled(value) ? filled_disparity(value) : value);
+    }
+  }
 }
 
 TEST(RowsEncoder, AllocatesNothingOnceThereIsRoom) {

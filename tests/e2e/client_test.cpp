@@ -8,14 +8,18 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/depth.h"
 #include "daemon/client/stereod_client.h"
 #include "daemon/config/calibration_file.h"
 #include "daemon/publish/lcm_bus.h"
+#include "stereod/depth_rows_t.hpp"
+#include "stereod/pointcloud_t.hpp"
 #include "tests/support/network.h"
 #include "tests/support/random_images.h"
 #include "tests/support/recorded_pairs.h"
@@ -85,6 +89,85 @@ TEST_F(ClientE2e, GivesDepthAsTheCalibrationSays) {
   EXPECT_GT(pixels, 5 * kSize.width * kSize.height / 3);
   EXPECT_EQ(client.counts().messages_ignored, 0);
   EXPECT_EQ(problem_in_words(client.counts()), "");
+}
+
+/// Decodes what comes on a channel.
+template <typename Message>
+void listen(lcm_t* lcm, const char* channel, std::vector<Message>& heard) {
+  lcm_subscribe(
+      lcm, channel,
+      [](const lcm_recv_buf_t* in, const char*, void* to) {
+        Message message{};
+        const auto size = static_cast<int>(in->data_size);
+        if (message.decode(in->data, 0, size) == size) {
+          static_cast<std::vector<Message>*>(to)->push_back(std::move(message));
+        }
+      },
+      &heard);
+}
+
+TEST_F(ClientE2e, DepthAndCloudAreThoseOfTheDisparities) {
+  std::ofstream(config_, std::ios::app)
+      << "publish: {region: {left: 80, top: 60, width: 200, height: 120}, column_step: 2, depth: true, "
+         "cloud: true, cloud_step: 4}\n";
+  lcm_t* lcm = lcm_create((std::string(kUrl) + "&recv_buf_size=212992").c_str());
+  ASSERT_NE(lcm, nullptr);
+  std::vector<depth_rows_t> depths;
+  std::vector<pointcloud_t> clouds;
+  std::map<std::int64_t, StereoFrame> frames;
+  {
+    StereoClient client(lcm, "CLIENT");
+    client.on_frame([&](StereoFrame&& frame) {
+      if (frame.complete() && frame.camera) frames.emplace(frame.frame, std::move(frame));
+    });
+    listen(lcm, "CLIENT_DEPTH", depths);
+    listen(lcm, "CLIENT_CLOUD", clouds);
+    ChildProgram stereod = start_stereod();
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (frames.size() < 6 && std::chrono::steady_clock::now() < deadline) lcm_handle_timeout(lcm, 100);
+    for (int i = 0; i < 50; ++i) lcm_handle_timeout(lcm, 10);  // the cloud of the last frame
+  }
+  lcm_destroy(lcm);
+  ASSERT_GE(frames.size(), 6U);
+  int rows = 0, pixels = 0, compared_clouds = 0;
+  for (const depth_rows_t& m : depths) {
+    const auto found = frames.find(m.frame);
+    if (found == frames.end()) continue;
+    ASSERT_EQ(m.width, 100);
+    for (int v = m.first_row; v < m.first_row + m.row_count; ++v, ++rows) {
+      for (int u = 0; u < m.width; ++u) {
+        const auto at = static_cast<std::size_t>(2 * ((v - m.first_row) * m.width + u));
+        const int mm = m.data[at] | m.data[at + 1] << 8;
+        const float depth = found->second.depth_m(u, v);
+        ASSERT_EQ(mm == 0, std::isnan(depth));
+        if (mm > 0 && mm < 65535) {
+          ASSERT_NEAR(mm, depth * 1000, 0.51 + 1e-4 * mm);
+        }
+        pixels += mm > 0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GE(rows, 5 * 120);
+  EXPECT_GT(pixels, rows * 30);
+  for (const pointcloud_t& cloud : clouds) {
+    const auto found = frames.find(cloud.seq);
+    if (found == frames.end()) continue;
+    // Every fourth pixel of the region is every second one of what is published.
+    std::vector<StereoPoint> expected;
+    for (int v = 0; v < 120; v += 4) {
+      for (int u = 0; u < 100; u += 2) {
+        const StereoPoint point = found->second.point(u, v);
+        if (std::isfinite(point.z)) expected.push_back(point);
+      }
+    }
+    ASSERT_EQ(cloud.points.size(), expected.size());
+    float sum_sent = 0, sum_expected = 0;  // blocks of rows, and so the points, come in any order
+    for (const auto& point : cloud.points) sum_sent += point[0] + point[1] + point[2];
+    for (const StereoPoint& point : expected) sum_expected += point.x + point.y + point.z;
+    EXPECT_NEAR(sum_sent, sum_expected, 1e-3F * std::abs(sum_expected));
+    ++compared_clouds;
+  }
+  EXPECT_GE(compared_clouds, 5);
 }
 
 // The consumer needs 0.2 s for a frame, the stream brings 20 a second.

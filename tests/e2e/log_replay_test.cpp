@@ -7,10 +7,9 @@
 #include <fstream>
 #include <map>
 #include <string>
-#include <utility>
 
 #include "daemon/client/stereod_client.h"
-#include "daemon/publish/lcm_log.h"
+#include "tests/support/log_frames.h"
 #include "tests/support/network.h"
 #include "tests/support/recorded_pairs.h"
 #include "tests/support/run_program.h"
@@ -24,23 +23,6 @@ using testing::HasSubstr;
 constexpr Size kSize{320, 240};
 constexpr const char* kUrl = "udpm://239.255.76.67:17667?ttl=0";  // a port of the tests' own
 const std::filesystem::path kBin = STEREOD_BIN_DIR;
-
-/// The complete frames of a log, by their times.
-std::map<std::int64_t, StereoFrame> frames_of(const std::filesystem::path& file, const std::string& prefix) {
-  std::map<std::int64_t, StereoFrame> frames;
-  const auto client = StereoClient::unconnected();
-  client->on_frame([&](StereoFrame&& frame) {
-    if (frame.complete()) frames.emplace(frame.utime, std::move(frame));
-  });
-  LcmLogReader reader(file);
-  for (LogEvent event; reader.next(event);) {
-    if (event.channel == prefix + "_DISPARITY") client->take_rows(event.data.data(), event.data.size());
-    if (event.channel == prefix + "_FRAME") client->take_frame(event.data.data(), event.data.size());
-    if (event.channel == prefix + "_CAMERA_INFO")
-      client->take_camera_info(event.data.data(), event.data.size());
-  }
-  return frames;
-}
 
 class LogReplay : public testing::Test {
  protected:

@@ -361,10 +361,23 @@ INSTANTIATE_TEST_SUITE_P(
                      ", which this CPU or this build does not have"},
         BadStart{"TooManyRows", "cameras: {source: synthetic}\nlcm: {rows_per_message: 200}\n",
                  "bad.yaml:2: lcm.rows_per_message: found 200"},
+        BadStart{"RegionOutside",
+                 "cameras: {source: synthetic}\npublish: {region: {top: 400, height: 200}}\n",
+                 "bad.yaml:2: publish.region: found 0×200 pixels from column 0, row 400 on"},
         BadStart{"ScanWithoutCalibration",
                  "cameras: {source: replay, replay: {left: left_00.png, right: right_00.png}}\nscan: "
                  "{enabled: true}\n",
                  "bad.yaml:2: scan.enabled: found true, but without a calibration no distance is known"},
+        BadStart{
+            "DepthWithoutCalibration",
+            "cameras: {source: replay, replay: {left: left_00.png, right: right_00.png}}\npublish: {depth: "
+            "true}\n",
+            "bad.yaml:2: publish.depth: found true, but without a calibration no distance is known"},
+        BadStart{
+            "CloudWithoutCalibration",
+            "cameras: {source: replay, replay: {left: left_00.png, right: right_00.png}}\npublish: {cloud: "
+            "true}\n",
+            "bad.yaml:2: publish.cloud: found true, but without a calibration no distance is known"},
         BadStart{"BadLcmUrl", "cameras: {source: synthetic}\nlcm: {url: \"carrier-pigeon://\"}\n",
                  "bad.yaml:2: lcm.url: LCM URL 'carrier-pigeon://'"}),
     [](const auto& tested) { return std::string(tested.param.name); });

@@ -63,6 +63,52 @@ std::string page_of(const ChildProgram& view) {
   return text.substr(0, text.find('\n'));
 }
 
+/// A press of the button gives three files: the disparities to the last bit, their picture, the left image.
+void expect_saved_frame(Chromium& browser, const StereoFrame& sent) {
+  // What would be written to the disk is kept instead.
+  browser.evaluate(
+      "(() => { window.saved = []; window.kept = new Map();"
+      " URL.createObjectURL = blob => { const url = 'blob:' + kept.size; kept.set(url, blob); return url; };"
+      " HTMLAnchorElement.prototype.click = function() { saved.push([this.download, kept.get(this.href)]); };"
+      " document.getElementById('save').click(); })()");
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (browser.evaluate("saved.length") != "3" && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  char number[32];
+  std::snprintf(number, sizeof number, "frame-%06lld", static_cast<long long>(sent.frame));
+  const std::string name = number;
+  EXPECT_EQ(browser.evaluate("saved.map(s => s[0]).sort().join(' ')"),
+            name + "-left.png " + name + ".pfm " + name + ".png");
+  const std::string of = "(async () => { const b = new Uint8Array(await saved.find(s => s[0] === '";
+  for (const char* picture : {".png", "-left.png"}) {
+    EXPECT_EQ(
+        browser.evaluate(
+            of + name + picture +
+            "')[1].arrayBuffer()); return String.fromCharCode(...b.slice(1, 4)) + (b.length > 5000); })()"),
+        "PNGtrue")
+        << picture;
+  }
+  EXPECT_EQ(
+      browser.evaluate(of + name +
+                       ".pfm')[1].arrayBuffer()); return new TextDecoder().decode(b.slice(0, 14)); })()"),
+      "Pf\n320 240\n-1\n");
+  const YAML::Node values =
+      YAML::Load(browser.evaluate(of + name +
+                                  ".pfm')[1].arrayBuffer());"
+                                  " return JSON.stringify(Array.from(new Float32Array(b.slice(14).buffer), v "
+                                  "=> v === Infinity ? -1 : v)); })()"));
+  ASSERT_EQ(values.size(), std::size_t{320 * 240});
+  int different = 0;
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      const float px = sent.disparity_px(x, y);
+      different += values[(239 - y) * 320 + x].as<float>() != (std::isnan(px) ? -1.0F : px) ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(different, 0);
+}
+
 TEST_F(BrowserTest, ShowsWhatIsOnTheWire) {
   std::map<std::int64_t, StereoFrame> wire;
   StereoClient::Options options;
@@ -139,10 +185,7 @@ TEST_F(BrowserTest, ShowsWhatIsOnTheWire) {
     }
   }
   EXPECT_GT(looked_at, 10);
-  // The saved file is the frame.
-  EXPECT_EQ(browser.evaluate("(async () => { const b = new Uint8Array(await view.pfm().arrayBuffer());"
-                             " return new TextDecoder().decode(b.slice(0, 3)) + b.length; })()"),
-            "Pf\n" + std::to_string(14 + 4 * 320 * 240));
+  expect_saved_frame(browser, sent);
 
   // And it lives: every picture changes.
   browser.evaluate("view.paused = false");

@@ -1,17 +1,15 @@
 #include "daemon/tools/view/live_view.h"
 
 #include <gtest/gtest.h>
-#include <yaml-cpp/yaml.h>
-#include <zlib.h>
 
 #include <cmath>
-#include <cstring>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "daemon/imagefile/jpeg_codec.h"
 #include "tests/support/frame_messages.h"
+#include "tests/support/moment.h"
 
 namespace stereod {
 namespace {
@@ -24,30 +22,6 @@ StereoFrame frame_of(std::int64_t number) {
   for (int y = 0; y < kHeight; y += kRowsPerMessage) assembler.take(rows_of(number, y));
   assembler.take(summary_of(number));
   result.camera = geometry_of(camera_info_of());
-  return result;
-}
-
-/// What the page takes apart again.
-struct Decoded {
-  YAML::Node json;  // JSON is YAML
-  std::vector<std::int16_t> disparity;
-  std::string left;
-};
-
-Decoded decoded(const std::string& bytes) {
-  std::uint32_t length = 0;
-  std::memcpy(&length, bytes.data(), 4);
-  Decoded result{YAML::Load(bytes.substr(4, length)), {}, {}};
-  const std::string compressed = bytes.substr(4 + length, result.json["disparity_bytes"].as<std::size_t>());
-  result.left = bytes.substr(4 + length + compressed.size());
-  std::vector<std::int16_t> room(100'000);
-  uLongf size = room.size() * 2;
-  if (compressed.empty()) return result;
-  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(room.data()), &size,
-                       reinterpret_cast<const Bytef*>(compressed.data()), compressed.size()),
-            Z_OK);
-  room.resize(size / 2);
-  result.disparity = room;
   return result;
 }
 
@@ -68,7 +42,7 @@ TEST(LiveView, GivesAFrameAndWhatBelongsToIt) {
   view.take(frame_of(7), counts);
   const auto moment = view.wait_newer(0, 0ms);
   ASSERT_TRUE(moment && moment->frame);
-  const Decoded got = decoded(encoded_moment(*moment, 1));
+  const DecodedMoment got = decoded_moment(encoded_moment(*moment, 1));
   EXPECT_EQ(got.json["frame"]["frame"].as<int>(), 7);
   EXPECT_EQ(got.json["frame"]["units_per_pixel"].as<int>(), 16);
   EXPECT_EQ(got.json["frame"]["camera"]["fx"].as<double>(), 500);
@@ -84,7 +58,7 @@ TEST(LiveView, GivesAFrameAndWhatBelongsToIt) {
       EXPECT_EQ(got.disparity[static_cast<std::size_t>(y * kWidth + x)], moment->frame->disparity.at(x, y));
     }
   }
-  const Decoded half = decoded(encoded_moment(*moment, 2));
+  const DecodedMoment half = decoded_moment(encoded_moment(*moment, 2));
   ASSERT_EQ(half.disparity.size(), static_cast<std::size_t>(kWidth * kHeight / 4));
   EXPECT_EQ(half.disparity[7], moment->frame->disparity.at(2, 2));
 }
@@ -106,7 +80,7 @@ TEST(LiveView, ShowsAStatusWhenThereAreNoFrames) {
   view.take(std::move(status));
   const auto moment = view.wait_newer(0, 0ms);
   ASSERT_TRUE(moment);
-  const Decoded got = decoded(encoded_moment(*moment, 1));
+  const DecodedMoment got = decoded_moment(encoded_moment(*moment, 1));
   EXPECT_EQ(got.json["status"]["state"].as<std::string>(), "waiting_for_cameras");
   EXPECT_FALSE(got.json["frame"]);
 }

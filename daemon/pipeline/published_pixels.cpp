@@ -1,0 +1,47 @@
+#include "daemon/pipeline/published_pixels.h"
+
+#include <algorithm>
+
+namespace stereod {
+namespace {
+
+int published(int first, int count, int step, int side) {
+  const int pixels = count > 0 ? count : side - first;
+  return (pixels + step - 1) / step;
+}
+
+}  // namespace
+
+PublishedPixels::PublishedPixels(const PublishConfig& publish, Size image)
+    : left(publish.left),
+      top(publish.top),
+      column_step(publish.column_step),
+      row_step(publish.row_step),
+      width(published(publish.left, publish.width, publish.column_step, image.width)),
+      height(published(publish.top, publish.height, publish.row_step, image.height)) {}
+
+std::optional<std::string> region_problem(const PublishConfig& publish, Size image) {
+  const auto outside = [](int first, int count, int side) { return first >= side || count > side - first; };
+  if (!outside(publish.left, publish.width, image.width) &&
+      !outside(publish.top, publish.height, image.height)) {
+    return std::nullopt;
+  }
+  const auto numbers = [](int width, int height, int left, int top) {
+    return std::to_string(width) + "×" + std::to_string(height) + " pixels from column " +
+           std::to_string(left) + ", row " + std::to_string(top) + " on";
+  };
+  return "found " + numbers(publish.width, publish.height, publish.left, publish.top) +
+         " (0: up to the edge), but the pictures are " + std::to_string(image.width) + "×" +
+         std::to_string(image.height) + "; allowed is what lies in them";
+}
+
+ColumnRange columns_to_match(const MatcherOptions& options, Size image, ColumnRange wanted) {
+  // A window, the pixels beside it that the prefilter looks at, and the neighbours of the median.
+  const int around = options.window / 2 + options.median / 2 + 1;
+  const int farthest = options.min_disparity + options.disparities;
+  // A pixel's match is to the left of it; the match's own match may be to the right of the pixel.
+  const int right = options.left_right_max_diff >= 0 ? options.disparities : 0;
+  return {std::max(wanted.first - farthest - around, 0), std::min(wanted.end + right + around, image.width)};
+}
+
+}  // namespace stereod
