@@ -26,7 +26,7 @@ emulation_packages=(
 )
 foreign_packages=(
   qemu-user g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-i686-linux-gnu  # tests/cross/run.sh
-  mmdebstrap lintian openssh-client git                                       # tests/package
+  mmdebstrap lintian openssh-client git systemd-container                     # tests/package
 )
 
 die() {

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Unpacks what stereod is built against for a foreign machine: Debian's libraries and headers of that architecture, from
 # this machine's own apt sources, and a list of their packages, from which dependencies are told when packages are made.
-#   make-sysroot.sh ARCH [--again]        ARCH: arm64, armhf or i386; prints the folder, which is made only once
+#   make-sysroot.sh ARCH [--again]        ARCH: arm64, armhf or i386; prints the folder, which is made only once, and again
+#                                         when other packages are wanted than the last time
 # It lies in $STEREOD_SYSROOTS, or in .cache/stereod/sysroots in the home directory.
 set -euo pipefail
 
@@ -17,14 +18,13 @@ case $arch in
 esac
 sysroots=${STEREOD_SYSROOTS:-$HOME/.cache/stereod/sysroots}
 sysroot=$sysroots/$arch
-if [[ -e $sysroot/.complete && ${2:-} != --again ]]; then
+packages=libc6-dev,libstdc++-12-dev,liblcm-dev,libv4l-dev,libyaml-cpp-dev,libspdlog-dev,libcli11-dev
+packages+=,libturbojpeg0-dev,libjpeg62-turbo-dev,libpng-dev,libsystemd-dev,libgtest-dev,libgmock-dev,libcpp-httplib-dev
+if [[ -e $sysroot/.complete && $(cat "$sysroot/.complete") == "$packages" && ${2:-} != --again ]]; then
   echo "$sysroot"
   exit 0
 fi
 command -v mmdebstrap >/dev/null || die "no mmdebstrap here: apt install mmdebstrap"
-
-packages=libc6-dev,libstdc++-12-dev,liblcm-dev,libv4l-dev,libyaml-cpp-dev,libspdlog-dev,libcli11-dev
-packages+=,libturbojpeg0-dev,libjpeg62-turbo-dev,libpng-dev,libsystemd-dev,libgtest-dev,libgmock-dev,libcpp-httplib-dev
 
 mkdir -p "$sysroots"
 sources=$sysroots/$arch.sources
@@ -62,5 +62,5 @@ for deb in "$sysroot.debs"/*.deb; do
 done
 rm -rf "$sysroot.debs"
 rm "$sources"
-touch "$sysroot/.complete"
+echo "$packages" >"$sysroot/.complete"
 echo "$sysroot"

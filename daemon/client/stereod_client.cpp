@@ -43,7 +43,21 @@ StereoFrame empty_frame(std::int64_t frame, std::int64_t utime, int width, int h
 
 bool same_search(const StereoFrame& frame, const disparity_rows_t& m) {
   return frame.units_per_pixel == units_of(m.scale) && frame.min_disparity == m.min_disparity &&
-         frame.disparities == m.disparities;
+         frame.disparities == m.disparities && frame.grid == RowBlock(m).grid();
+}
+
+/// `count` columns or rows, `step` apart from `first` on, all within an image that can be.
+bool is_sane_axis(int first, int step, int count) {
+  return first >= 0 && first < kLongestSide && step >= 1 && step <= kLongestSide &&
+         first + (count - 1) * step < kLongestSide;
+}
+
+/// Puts the row's filled disparities beside its measured ones.
+void copy_filled_row(const RowBlock& block, int y, StereoFrame& out) {
+  if (out.filled.width() == 0) out.filled = DisparityMap(out.disparity.width(), out.disparity.height());
+  for (int x = 0; x < out.filled.width(); ++x) {
+    if (block.is_filled(x, y)) out.filled.row(y)[x] = block.at(x, y, Pixels::kMeasuredOrFilled);
+  }
 }
 
 /// Rows received, of those that were published.
@@ -58,10 +72,19 @@ bool is_sane(const disparity_rows_t& m) {
   if (m.first_row < 0 || m.row_count < 1 || m.row_count > m.height || m.first_row > m.height - m.row_count) {
     return false;
   }
+  if (!is_sane_axis(m.left, m.column_step, m.width) || !is_sane_axis(m.top, m.row_step, m.height)) {
+    return false;
+  }
   if (m.min_disparity < 0 || m.min_disparity > kLargestDisparity) return false;
   if (m.disparities < 1 || m.disparities > kLargestDisparity || units_of(m.scale) == 0) return false;
   if (m.bytes_per_value != 1 && m.bytes_per_value != 2) return false;
   if (m.invalid < 0 || m.invalid > (m.bytes_per_value == 1 ? 0xFF : 0xFFFF)) return false;
+  const int filled_size = (m.width + 7) / 8 * m.row_count;
+  // If there are none, what lcm-gen makes leaves those of the message decoded before.
+  if (m.filled_size != 0 &&
+      (m.filled_size != filled_size || m.filled.size() != static_cast<std::size_t>(m.filled_size))) {
+    return false;
+  }
   const int expected_size = m.width * m.row_count * m.bytes_per_value;  // at most 2^25
   return m.size == expected_size && m.data.size() == static_cast<std::size_t>(m.size);
 }
@@ -89,45 +112,57 @@ std::optional<CameraGeometry> geometry_of(const camera_info_t& m) {
   return CameraGeometry{m.fx, m.fy, m.cx, m.cy, m.baseline_m, m.disparity_offset};
 }
 
-float StereoFrame::disparity_px(int x, int y) const {
-  const std::int16_t value = disparity.at(x, y);
+float StereoFrame::disparity_px(int x, int y, Pixels pixels) const {
+  std::int16_t value = disparity.at(x, y);
+  if (value == DisparityMap::kNone && pixels == Pixels::kMeasuredOrFilled && filled.width() > 0) {
+    value = filled.at(x, y);
+  }
   return value == DisparityMap::kNone ? kNoNumber
                                       : static_cast<float>(value) / static_cast<float>(units_per_pixel);
 }
 
-float StereoFrame::depth_m(int x, int y) const {
-  const float px = disparity_px(x, y);
+float StereoFrame::depth_m(int x, int y, Pixels pixels) const {
+  const float px = disparity_px(x, y, pixels);
   if (std::isnan(px) || !camera) return kNoNumber;
   return static_cast<float>(camera->depth_m(static_cast<double>(px)));
 }
 
-StereoPoint StereoFrame::point(int x, int y) const {
-  const float z = depth_m(x, y);
+StereoPoint StereoFrame::point(int x, int y, Pixels pixels) const {
+  const float z = depth_m(x, y, pixels);
   if (!std::isfinite(z)) return {kNoNumber, kNoNumber, kNoNumber};
-  return camera->point(x, y, static_cast<double>(disparity_px(x, y)));
+  return camera->point(grid.image_x(x), grid.image_y(y), static_cast<double>(disparity_px(x, y, pixels)));
 }
 
-std::vector<float> StereoFrame::depths_m() const {
+std::vector<float> StereoFrame::depths_m(Pixels pixels) const {
   std::vector<float> depths;
   depths.reserve(static_cast<std::size_t>(disparity.width()) * static_cast<std::size_t>(disparity.height()));
   for (int y = 0; y < disparity.height(); ++y) {
-    for (int x = 0; x < disparity.width(); ++x) depths.push_back(depth_m(x, y));
+    for (int x = 0; x < disparity.width(); ++x) depths.push_back(depth_m(x, y, pixels));
   }
   return depths;
 }
 
-std::vector<StereoPoint> StereoFrame::points(int step) const {
+std::vector<StereoPoint> StereoFrame::points(int step, Pixels pixels) const {
   std::vector<StereoPoint> points;
   for (int y = 0; y < disparity.height(); y += step) {
     for (int x = 0; x < disparity.width(); x += step) {
-      const StereoPoint candidate = point(x, y);
+      const StereoPoint candidate = point(x, y, pixels);
       if (std::isfinite(candidate.z)) points.push_back(candidate);
     }
   }
   return points;
 }
 
-std::int16_t RowBlock::at(int x, int y) const {
+bool RowBlock::is_filled(int x, int y) const {
+  if (!has_filled()) return false;
+  const auto row_bytes = static_cast<std::size_t>((message_.width + 7) / 8);
+  const std::size_t index =
+      static_cast<std::size_t>(y - message_.first_row) * row_bytes + static_cast<std::size_t>(x / 8);
+  return (message_.filled[index] >> (x % 8) & 1) != 0;
+}
+
+std::int16_t RowBlock::at(int x, int y, Pixels pixels) const {
+  if (pixels == Pixels::kMeasured && is_filled(x, y)) return DisparityMap::kNone;
   const auto index =
       static_cast<std::size_t>(y - message_.first_row) * static_cast<std::size_t>(message_.width) +
       static_cast<std::size_t>(x);
@@ -138,8 +173,8 @@ std::int16_t RowBlock::at(int x, int y) const {
   return valid ? static_cast<std::int16_t>(value) : DisparityMap::kNone;
 }
 
-void RowBlock::copy_row(int y, std::int16_t* out) const {
-  for (int x = 0; x < message_.width; ++x) out[x] = at(x, y);
+void RowBlock::copy_row(int y, std::int16_t* out, Pixels pixels) const {
+  for (int x = 0; x < message_.width; ++x) out[x] = at(x, y, pixels);
 }
 
 std::string problem_in_words(const ReceptionCounts& counts) {
@@ -181,9 +216,11 @@ void FrameAssembler::take(const disparity_rows_t& m) {
     out.units_per_pixel = units_of(m.scale);
     out.min_disparity = m.min_disparity;
     out.disparities = m.disparities;
+    out.grid = RowBlock(m).grid();
   } else if (!same_search(out, m)) {
     return count_ignored();
   }
+  const RowBlock block(m);
   for (int row = 0; row < m.row_count; ++row) {
     const int y = m.first_row + row;
     if (out.row_present[static_cast<std::size_t>(y)]) {
@@ -192,7 +229,8 @@ void FrameAssembler::take(const disparity_rows_t& m) {
     }
     out.row_present[static_cast<std::size_t>(y)] = true;
     ++out.rows_received;
-    RowBlock(m).copy_row(y, out.disparity.row(y));
+    block.copy_row(y, out.disparity.row(y));
+    if (block.has_filled()) copy_filled_row(block, y, out);
   }
   limit_received(out);
   if (out.complete()) complete(*slot);

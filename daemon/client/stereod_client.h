@@ -49,6 +49,25 @@ struct CameraGeometry {
 /// What the message says; nothing if there is no calibration, or if its numbers make no sense.
 std::optional<CameraGeometry> geometry_of(const camera_info_t& info);
 
+/// Which pixels of the rectified image the daemon publishes: pixel (u, v) of what it publishes is pixel
+/// (image_x(u), image_y(v)) there.
+struct PixelGrid {
+  int left = 0, top = 0;              ///< px
+  int column_step = 1, row_step = 1;  ///< px, ≥ 1
+
+  int image_x(int u) const { return left + u * column_step; }
+  int image_y(int v) const { return top + v * row_step; }
+  friend bool operator==(const PixelGrid& a, const PixelGrid& b) {
+    return a.left == b.left && a.top == b.top && a.column_step == b.column_step && a.row_step == b.row_step;
+  }
+};
+
+/// Which disparities are wanted.
+enum class Pixels {
+  kMeasured,          ///< only those that were matched
+  kMeasuredOrFilled,  ///< also those that the daemon took from their neighbours because it found no match
+};
+
 /// Disparities in fixed point, row after row.
 class DisparityMap {
  public:
@@ -77,7 +96,9 @@ class DisparityMap {
 struct StereoFrame {
   std::int64_t frame = 0;
   std::int64_t utime = 0;          ///< µs since the Unix epoch, exposure of the left frame
-  DisparityMap disparity;          ///< in units of 1 / units_per_pixel px
+  DisparityMap disparity;          ///< measured, in units of 1 / units_per_pixel px
+  DisparityMap filled;             ///< those not measured but filled in, the same way; 0×0 if there are none
+  PixelGrid grid;                  ///< where the pixels of `disparity` are in the rectified image
   int units_per_pixel = 1;         ///< 1 or 16
   int min_disparity = 0;           ///< px
   int disparities = 0;             ///< px; 0 if not one row arrived
@@ -89,17 +110,17 @@ struct StereoFrame {
 
   bool complete() const { return summary.has_value() && rows_received >= rows_expected; }
 
-  /// Of a pixel of the image: px, or NaN if there is none.
-  float disparity_px(int x, int y) const;
+  /// Of a pixel of `disparity`: px of the rectified image, or NaN if there is none.
+  float disparity_px(int x, int y, Pixels pixels = Pixels::kMeasured) const;
   /// Metres along the optical axis; NaN if there is no disparity or no camera, infinite at the horizon.
-  float depth_m(int x, int y) const;
+  float depth_m(int x, int y, Pixels pixels = Pixels::kMeasured) const;
   /// NaN in every coordinate where depth is NaN or infinite.
-  StereoPoint point(int x, int y) const;
+  StereoPoint point(int x, int y, Pixels pixels = Pixels::kMeasured) const;
 
   /// depth_m() of every pixel, row after row.
-  std::vector<float> depths_m() const;
-  /// The points of every `step`-th row and column (≥ 1) that have one.
-  std::vector<StereoPoint> points(int step = 1) const;
+  std::vector<float> depths_m(Pixels pixels = Pixels::kMeasured) const;
+  /// The points of every `step`-th row and column (≥ 1) of `disparity` that have one.
+  std::vector<StereoPoint> points(int step = 1, Pixels pixels = Pixels::kMeasured) const;
 };
 
 /// Some rows, as they came: valid during the call that hands it over. Its numbers agree with each other.
@@ -109,11 +130,15 @@ class RowBlock {
 
   const disparity_rows_t& message() const { return message_; }
   int units_per_pixel() const { return message_.scale == 1.0F ? 1 : 16; }
-  /// In units of 1 / units_per_pixel() px, or DisparityMap::kNone. `y` is a row of the image, first_row ≤ y <
-  /// first_row + row_count.
-  std::int16_t at(int x, int y) const;
-  /// A whole row of them, message().width values.
-  void copy_row(int y, std::int16_t* out) const;
+  PixelGrid grid() const { return {message_.left, message_.top, message_.column_step, message_.row_step}; }
+  /// In units of 1 / units_per_pixel() px, or DisparityMap::kNone. `y` is a row of what is published,
+  /// first_row ≤ y < first_row + row_count.
+  std::int16_t at(int x, int y, Pixels pixels = Pixels::kMeasured) const;
+  /// Whether there is a value that was not measured but filled in.
+  bool is_filled(int x, int y) const;
+  bool has_filled() const { return message_.filled_size > 0; }
+  /// A whole row of at(), message().width values.
+  void copy_row(int y, std::int16_t* out, Pixels pixels = Pixels::kMeasured) const;
 
  private:
   const disparity_rows_t& message_;
@@ -204,7 +229,7 @@ bool is_sane(const frame_t& summary);
 template <typename Message>
 inline constexpr std::string_view kWireLayout;
 template <>
-inline constexpr std::string_view kWireLayout<disparity_rows_t> = "ddiiiiiiibiv";
+inline constexpr std::string_view kWireLayout<disparity_rows_t> = "ddiiiiiiiiiiibivv";
 template <>
 inline constexpr std::string_view kWireLayout<frame_t> = "ddiiiiiddiiiiiiibii";
 template <>

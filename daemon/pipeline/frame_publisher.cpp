@@ -14,10 +14,6 @@ namespace {
 constexpr int kHeaderAllowance = 256;         // channel name and the message's own fields
 constexpr std::int64_t kBurstBytes = 96'000;  // fits a default socket buffer (212,992 B with its overhead)
 
-int block_bytes(const WireFormat& format, Size size) {
-  return format.rows_per_message * size.width * format.bytes_per_value();
-}
-
 }  // namespace
 
 std::optional<std::string> wire_problem(const WireFormat& format, Size size) {
@@ -26,8 +22,8 @@ std::optional<std::string> wire_problem(const WireFormat& format, Size size) {
            "; what can be published is " + std::to_string(kLargestImageSide) + " a side";
   }
   constexpr int kRoom = kLargestDatagram - kHeaderAllowance;
-  if (block_bytes(format, size) <= kRoom) return std::nullopt;
-  const int row_bytes = size.width * format.bytes_per_value();
+  const int row_bytes = format.row_bytes(size.width);
+  if (format.rows_per_message * row_bytes <= kRoom) return std::nullopt;
   return "found " + std::to_string(format.rows_per_message) + ", but rows of " + std::to_string(row_bytes) +
          " bytes are sent and a message holds " + std::to_string(kRoom) + ", so allowed are 1 to " +
          std::to_string(kRoom / row_bytes);
@@ -50,9 +46,10 @@ FramePublisher::FramePublisher(MessageBus& bus, const WireFormat& format, Size s
       encoder_(kLargestDatagram) {
   if (const auto problem = wire_problem(format, size)) throw std::invalid_argument(*problem);
   for (OutputFrame& frame : frames_) free_.push_back(&frame);
-  rows_message_.data.reserve(static_cast<std::size_t>(block_bytes(format, size)));
+  reserve_rows(rows_message_, size.width, format.rows_per_message, format.bytes_per_value());
   rows_message_.width = size.width;
   rows_message_.height = size.height;
+  rows_message_.column_step = rows_message_.row_step = 1;
   rows_message_.min_disparity = format.min_disparity;
   rows_message_.disparities = format.disparities;
   rows_message_.scale = 1.0f / static_cast<float>(format.units_per_pixel);
@@ -148,32 +145,12 @@ void FramePublisher::run() noexcept {
 
 void FramePublisher::send_block(const OutputFrame& frame, int block) noexcept {
   const RowRange rows = block_rows(block);
-  const int width = size_.width;
-  const std::ptrdiff_t row_bytes = std::ptrdiff_t{width} * format_.bytes_per_value();
   rows_message_.utime = frame.facts.utime;
   rows_message_.frame = frame.facts.frame;
   rows_message_.first_row = rows.first;
   rows_message_.row_count = rows.count();
-  rows_message_.size = rows.count() * width * format_.bytes_per_value();
-  rows_message_.data.resize(static_cast<std::size_t>(rows_message_.size));
-  std::uint8_t* out = rows_message_.data.data();
-  std::int64_t valid = 0;
-  for (int y = rows.first; y < rows.end; ++y) {
-    const std::int16_t* in = frame.disparity.row(y);
-    for (int x = 0; x < width; ++x) valid += in[x] != kInvalidDisparity ? 1 : 0;
-    if (format_.bytes_per_value() == 1) {  // −1 becomes 255
-      for (int x = 0; x < width; ++x) out[x] = static_cast<std::uint8_t>(in[x]);
-    } else {  // −1 becomes 65535
-      for (std::ptrdiff_t x = 0; x < width; ++x) {
-        const auto value = static_cast<std::uint16_t>(in[x]);
-        out[2 * x] = static_cast<std::uint8_t>(value);
-        out[2 * x + 1] = static_cast<std::uint8_t>(value >> 8);
-      }
-    }
-    out += row_bytes;
-  }
-  valid_pixels_ += valid;
-  keep_pace(static_cast<std::size_t>(rows_message_.size));
+  measured_pixels_ += encode_rows(frame.disparity.view(), rows, rows_message_);
+  keep_pace(static_cast<std::size_t>(rows_message_.size + rows_message_.filled_size));
   if (!encoder_.publish(bus_, rows_channel_.c_str(), rows_message_)) ++refused_;
   if (scan_ == nullptr) return;
   for (int y = rows.first; y < rows.end; ++y) scan_->add_row(y, frame.disparity.row(y));
@@ -187,7 +164,7 @@ void FramePublisher::send_frame_message(const OutputFrame& frame) noexcept {
   const double pixels = static_cast<double>(size_.width) * size_.height;
   frame_message_.utime = facts.utime;
   frame_message_.frame = facts.frame;
-  frame_message_.valid_fraction = static_cast<float>(static_cast<double>(valid_pixels_) / pixels);
+  frame_message_.valid_fraction = static_cast<float>(static_cast<double>(measured_pixels_) / pixels);
   frame_message_.left_sequence = facts.left_sequence;
   frame_message_.right_sequence = facts.right_sequence;
   frame_message_.skew_us = us(facts.right_ns - facts.left_ns);
@@ -208,7 +185,7 @@ void FramePublisher::send_frame_message(const OutputFrame& frame) noexcept {
   figures_.match_ms.add((frame_message_.match_us + frame_message_.filter_us) / 1e3);
   figures_.skew_ms.add(frame_message_.skew_us / 1e3);
   figures_.skew_magnitude_ms.add(std::abs(frame_message_.skew_us) / 1e3);
-  valid_pixels_ = 0;
+  measured_pixels_ = 0;
 }
 
 // Lets a burst through, then no more bytes than the spread allows.

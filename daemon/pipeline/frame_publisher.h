@@ -12,6 +12,7 @@
 
 #include "daemon/pipeline/output_frame.h"
 #include "daemon/pipeline/recent_values.h"
+#include "daemon/pipeline/rows_encoder.h"
 #include "daemon/pipeline/scan_publisher.h"
 #include "daemon/publish/message_bus.h"
 #include "daemon/publish/message_encoder.h"
@@ -31,6 +32,8 @@ struct WireFormat {
 
   /// 1 if every value and the invalid one fit in a byte, else 2.
   int bytes_per_value() const;
+  /// What a row takes in a message at most, the bits of its filled pixels included.
+  int row_bytes(int width) const { return width * bytes_per_value() + (width + 7) / 8; }
   int invalid_value() const { return bytes_per_value() == 1 ? 0xFF : 0xFFFF; }
 };
 
@@ -112,7 +115,7 @@ class FramePublisher {
   MessageEncoder encoder_;
   disparity_rows_t rows_message_{};
   frame_t frame_message_{};
-  std::int64_t valid_pixels_ = 0;
+  std::int64_t measured_pixels_ = 0;
   std::int64_t refused_ = 0;
   std::int64_t paced_until_ns_ = 0;
   std::thread thread_;

@@ -16,11 +16,16 @@ class MessageEncoder {
   explicit MessageEncoder(std::size_t capacity) : buffer_(capacity) {}
 
   /// The encoded message, valid until the next call. Empty if it does not fit the buffer, or if its `size` is
-  /// not the length of its `data` (the generated code would read past the end).
+  /// not the length of its `data`, or `filled_size` that of `filled` (the generated code would read past the
+  /// end).
   template <typename Message>
   std::span<const std::byte> encode(const Message& message) noexcept {
     if constexpr (requires { message.data.size() == static_cast<std::size_t>(message.size); }) {
       if (message.size < 0 || static_cast<std::size_t>(message.size) != message.data.size()) return {};
+    }
+    if constexpr (requires { message.filled.size() == static_cast<std::size_t>(message.filled_size); }) {
+      if (message.filled_size < 0 || static_cast<std::size_t>(message.filled_size) != message.filled.size())
+        return {};
     }
     const int size = message.getEncodedSize();
     if (size <= 0 || static_cast<std::size_t>(size) > buffer_.size()) return {};

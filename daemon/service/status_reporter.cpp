@@ -23,8 +23,10 @@ std::string missing_cameras(const Activity& activity) {
   return "no frames from either camera";
 }
 
+// What both cameras say is said once.
 void add_reason(std::string& reason, const SourceReport& camera) {
-  if (!camera.reason.empty()) reason += "; " + camera.reason.substr(0, kLongestText);
+  const std::string further = "; " + camera.reason.substr(0, kLongestText);
+  if (!camera.reason.empty() && !reason.ends_with(further)) reason += further;
 }
 
 // A second, or two and a half frames of a slow camera.

@@ -85,6 +85,71 @@ TEST_F(ClientTest, GivesDisparityDepthAndPoints) {
   EXPECT_LT(frame.points(3).size(), valid / 4);
 }
 
+TEST_F(ClientTest, FindsThePixelsOfARegionInTheRectifiedImage) {
+  take(camera_info_of());
+  for (Message message : messages_of(1)) {
+    if (auto* rows = std::get_if<disparity_rows_t>(&message)) {
+      rows->left = 100;
+      rows->top = 50;
+      rows->column_step = 2;
+      rows->row_step = 3;
+    }
+    take(message);
+  }
+  ASSERT_EQ(frames_.size(), 1U);
+  const StereoFrame& frame = frames_[0];
+  EXPECT_EQ(frame.grid, (PixelGrid{100, 50, 2, 3}));
+  const double z = 500 * 0.1 / (value_at(1, 4, 7) / 16.0);
+  EXPECT_FLOAT_EQ(frame.depth_m(4, 7), static_cast<float>(z)) << "disparity counts in px of the whole image";
+  EXPECT_FLOAT_EQ(frame.point(4, 7).x, static_cast<float>((100 + 4 * 2 - 6) * z / 500));
+  EXPECT_FLOAT_EQ(frame.point(4, 7).y, static_cast<float>((50 + 7 * 3 - 5) * z / 500));
+}
+
+TEST_F(ClientTest, GivesWhatWasNotMeasuredOnlyToWhoAsksForIt) {
+  const auto filled = [](int x, int y) { return (x + y) % 3 == 0; };
+  client_->on_rows([&](const RowBlock& block) {
+    std::vector<std::int16_t> measured(kWidth), all(kWidth);
+    for (int y = block.message().first_row; y < block.message().first_row + kRowsPerMessage; ++y) {
+      block.copy_row(y, measured.data());
+      block.copy_row(y, all.data(), Pixels::kMeasuredOrFilled);
+      for (int x = 0; x < kWidth; ++x) {
+        const int sent = value_at(1, x, y) == 65535 ? DisparityMap::kNone : value_at(1, x, y);
+        EXPECT_EQ(all[static_cast<std::size_t>(x)], sent);
+        EXPECT_EQ(measured[static_cast<std::size_t>(x)], filled(x, y) ? DisparityMap::kNone : sent);
+        EXPECT_EQ(block.is_filled(x, y), filled(x, y));
+      }
+    }
+  });
+  take(camera_info_of());
+  for (Message message : messages_of(1)) {
+    if (auto* rows = std::get_if<disparity_rows_t>(&message)) mark_filled(*rows, filled);
+    take(message);
+  }
+  ASSERT_EQ(frames_.size(), 1U);
+  const StereoFrame& frame = frames_[0];
+  std::size_t measured = 0, all = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const int value = value_at(1, x, y);
+      const bool is_measured = value != 65535 && !filled(x, y);
+      measured += is_measured ? 1 : 0;
+      all += value != 65535 ? 1 : 0;
+      EXPECT_EQ(frame.disparity.at(x, y), is_measured ? value : DisparityMap::kNone);
+      EXPECT_EQ(std::isnan(frame.depth_m(x, y)), !is_measured);
+      if (value == 65535) continue;
+      EXPECT_FLOAT_EQ(frame.disparity_px(x, y, Pixels::kMeasuredOrFilled), static_cast<float>(value) / 16);
+      EXPECT_FLOAT_EQ(frame.point(x, y, Pixels::kMeasuredOrFilled).z,
+                      static_cast<float>(50 / (value / 16.0)));
+    }
+  }
+  EXPECT_EQ(frame.points().size(), measured);
+  EXPECT_EQ(frame.points(1, Pixels::kMeasuredOrFilled).size(), all);
+  EXPECT_LT(measured, all);
+  client_->on_rows(nullptr);
+  take_frame(2);
+  EXPECT_EQ(frames_[1].filled.width(), 0) << "nothing was filled";
+}
+
 TEST_F(ClientTest, HasDisparityButNoDepthBeforeTheCameraInfoCame) {
   take_frame(1);
   ASSERT_EQ(frames_.size(), 1U);

@@ -56,6 +56,10 @@ TEST(FrameAssembler, IgnoresWhatContradictsTheFrame) {
   EXPECT_TRUE(ignored([](auto& m) { m.disparities = 32; }));
   EXPECT_TRUE(ignored([](auto& m) { m.min_disparity = 1; }));
   EXPECT_TRUE(ignored([](auto& m) { m.height += 2; }));
+  EXPECT_TRUE(ignored([](auto& m) { m.left = 1; }));
+  EXPECT_TRUE(ignored([](auto& m) { m.top = 1; }));
+  EXPECT_TRUE(ignored([](auto& m) { m.column_step = 2; }));
+  EXPECT_TRUE(ignored([](auto& m) { m.row_step = 2; }));
   EXPECT_TRUE(ignored([](auto& m) {
     m.width /= 2;
     m.row_count *= 2;
@@ -64,7 +68,7 @@ TEST(FrameAssembler, IgnoresWhatContradictsTheFrame) {
   summary.height -= 1;
   summary.rows = 1;
   f.assembler.take(summary);
-  EXPECT_EQ(f.counts().messages_ignored, 7);
+  EXPECT_EQ(f.counts().messages_ignored, 11);
   f.take_frame(0);
   ASSERT_EQ(f.frames.size(), 1U);
   expect_pixels(f.frames[0]);
@@ -110,6 +114,17 @@ TEST(FrameAssembler, IgnoresSizesThatDoNotFit) {
     if (value < 1 || value > 4096) with([value](auto& m) { m.disparities = value; });
     if (value < 0 || value > 4096) with([value](auto& m) { m.min_disparity = value; });
     if (value < 0 || value > 65535) with([value](auto& m) { m.invalid = value; });
+    // So far to the right or down that the last column or row would lie outside of any image.
+    if (value < 0 || value >= 4095) with([value](auto& m) { m.left = m.top = value; });
+    if (value < 1 || value >= 4095) with([value](auto& m) { m.column_step = value; });
+    if (value < 1 || value >= 4095) with([value](auto& m) { m.row_step = value; });
+    // 4 is right: two rows of twelve bits, each in whole bytes.
+    if (value != 0 && value != 4) with([value](auto& m) { m.filled_size = value; });
+    if (value > 0 && value < 256 && value != 4)
+      with([value](auto& m) {
+        m.filled_size = value;
+        m.filled.resize(static_cast<std::size_t>(value));
+      });
   }
   for (const float scale : {0.0F, -1.0F, 2.0F, 0.5F, NAN, INFINITY})
     with([scale](auto& m) { m.scale = scale; });
@@ -117,6 +132,7 @@ TEST(FrameAssembler, IgnoresSizesThatDoNotFit) {
   with([](auto& m) { m.utime = -1; });
   with([](auto& m) { m.data.pop_back(); });
   with([](auto& m) { m.data.clear(); });
+  with([](auto& m) { m.filled_size = 4; });
   EXPECT_EQ(f.counts().messages_ignored, tried);
   f.assembler.finish();
   EXPECT_TRUE(f.frames.empty());
@@ -163,13 +179,17 @@ TEST(FrameAssembler, SurvivesHostileFields) {
     }
     disparity_rows_t m = rows_of(round / 10, random.between(0, kHeight / 2 - 1) * 2);
     m.frame = frame;
+    if (random.one_in(2)) mark_filled(m, [](int x, int) { return x % 2 == 0; });
     m.width = hostile(m.width);
     m.height = hostile(m.height);
     m.first_row = hostile(m.first_row);
     m.row_count = hostile(m.row_count);
     if (random.one_in(8)) m.bytes_per_value = static_cast<std::int8_t>(random.between(-128, 127));
     m.invalid = hostile(m.invalid);
+    m.left = hostile(m.left);
+    m.column_step = hostile(m.column_step);
     m.size = hostile(m.size);
+    m.filled_size = hostile(m.filled_size);
     if (random.one_in(2)) m.data.resize(static_cast<std::size_t>(std::clamp(m.size, 0, 100'000)));
     f.assembler.take(m);
     if (f.frames.size() > 100) f.frames.clear();

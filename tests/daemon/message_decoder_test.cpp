@@ -27,6 +27,8 @@ disparity_rows_t sample() {
   rows.frame = 7;
   rows.size = 40;
   rows.data.assign(40, 3);
+  rows.filled_size = 5;
+  rows.filled.assign(5, 0xA5);
   return rows;
 }
 template <>

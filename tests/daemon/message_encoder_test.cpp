@@ -21,6 +21,7 @@ disparity_rows_t some_rows(int width, int count) {
   rows.height = 480;
   rows.first_row = 16;
   rows.row_count = count;
+  rows.column_step = rows.row_step = 1;
   rows.disparities = 64;
   rows.scale = 0.0625F;
   rows.bytes_per_value = 2;
@@ -53,6 +54,7 @@ TEST(MessageEncoder, WritesWhatDecodesToTheSame) {
   EXPECT_EQ(back.frame, rows.frame);
   EXPECT_EQ(back.scale, rows.scale);
   EXPECT_EQ(back.data, rows.data);
+  EXPECT_TRUE(back.filled.empty());
 }
 
 TEST(MessageEncoder, SendsTheBytesOnTheChannel) {

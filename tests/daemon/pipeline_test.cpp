@@ -316,9 +316,9 @@ TEST(Pipeline, ARowBlockTooLargeForAMessageIsRefused) {
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "found 300, but rows of 320 bytes are sent and a message holds 65243, "
+                 "found 300, but rows of 340 bytes are sent and a message holds 65243, "
                  "so allowed "
-                 "are 1 to 203");
+                 "are 1 to 191");
   }
 }
 

@@ -10,6 +10,7 @@
 #include "core/obstacle_scan.h"
 #include "daemon/capture/synthetic_scene.h"
 #include "tests/support/floor_world.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scene_matcher.h"
 
 namespace stereod {
@@ -114,7 +115,7 @@ TEST(ScanOfTheScene, FindsEveryObjectWithinTheDisparitysResolution) {
 }
 
 TEST(ScanOfTheScene, FindsNoGhostOnTheEmptyFloorInAThousandFrames) {
-  constexpr int kFrames = 1000;
+  constexpr int kFrames = kSanitized ? 100 : 1000;
   const SyntheticScene scene({640, 480}, kFrames, 0.06, false);
   SceneMatcher matcher(scene);
   ScanOptions options;

@@ -25,6 +25,7 @@
 #include "tests/support/network.h"
 #include "tests/support/recorded_pairs.h"
 #include "tests/support/run_program.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/temporary_directory.h"
 
 namespace stereod {
@@ -196,9 +197,9 @@ TEST_F(StereodTest, MissingCamerasAreAStateAndNoReasonToEnd) {
 // A recording in which the right camera is knocked: from one picture on it looks four rows lower.
 TEST_F(StereodTest, AKnockedCameraIsNamedWithinSeconds) {
   if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer slows the probe more than the matcher, whose time it may take a share of";
-#endif
+  if (kSanitized) {
+    GTEST_SKIP() << "a sanitizer slows the probe more than the matcher, whose time it may take a share of";
+  }
   constexpr int kBefore = 200, kAfter = 300, kPictures = 4;
   write_recorded_pairs(directory_.path(), kSize, kPictures);
   std::filesystem::create_directory(directory_ / "play");

@@ -25,7 +25,13 @@ Bytes two_frames() {
   Bytes seed;
   append(seed, 2, camera_info_of());
   for (const std::int64_t frame : {4, 5}) {
-    for (int y = 0; y < kHeight; y += kRowsPerMessage) append(seed, 0, rows_of(frame, y));
+    for (int y = 0; y < kHeight; y += kRowsPerMessage) {
+      disparity_rows_t rows = rows_of(frame, y);
+      rows.left = 20;
+      rows.row_step = 2;
+      if (y >= 4) mark_filled(rows, [](int x, int) { return x % 3 == 0; });
+      append(seed, 0, rows);
+    }
     append(seed, 1, summary_of(frame));
   }
   return seed;

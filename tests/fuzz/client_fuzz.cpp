@@ -23,7 +23,10 @@ void read(const StereoFrame& frame) {
   const int width = frame.disparity.width(), height = frame.disparity.height();
   require(static_cast<int>(frame.row_present.size()) == height && frame.rows_received <= frame.rows_expected);
   require(frame.depths_m().size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (const StereoPoint& point : frame.points()) require(std::isfinite(point.z));
+  const auto points = frame.points(), all = frame.points(1, Pixels::kMeasuredOrFilled);
+  require(points.size() <= all.size());
+  for (const StereoPoint& point : all) require(std::isfinite(point.z));
+  require(frame.grid.image_x(width - 1) < 4096 && frame.grid.image_y(height - 1) < 4096);
 }
 
 void read(const RowBlock& block) {
@@ -31,6 +34,8 @@ void read(const RowBlock& block) {
   std::vector<std::int16_t> row(static_cast<std::size_t>(m.width));
   for (int y = m.first_row; y < m.first_row + m.row_count; ++y) {
     block.copy_row(y, row.data());
+    for (const std::int16_t value : row) require(value >= DisparityMap::kNone);
+    block.copy_row(y, row.data(), Pixels::kMeasuredOrFilled);
     for (const std::int16_t value : row) require(value >= DisparityMap::kNone);
   }
 }

@@ -1,31 +1,16 @@
 #!/usr/bin/env bash
-# toolchain/deploy.sh, tried against a second machine of the test's own: a bare Debian 12 root with an ssh server, which
-# listens on loopback only. Its systemctl and journalctl only write down how they were called, as no systemd runs there.
-# Ends with 77, skipped, for who is not root or lacks a tool. Builds the package (preset package), if it is not there.
+# toolchain/deploy.sh, tried against a second machine of the test's own: a bare Debian 12 root with an ssh server on loopback,
+# first without systemd, then booted with it, in a network of its own.
+# Ends with 77, skipped, for who is not root or lacks a tool. Builds the package.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-cd "$here/../.."
-
-say() { echo "deploy test: $*"; }
-fail() {
-  echo "deploy test: FAILED: $*" >&2
-  exit 1
-}
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+. tests/package/root.sh
 if [[ ${1:-} != --inside ]]; then
-  [[ $(id -u) -eq 0 ]] || { say "roots are made by root: skipped." && exit 77; }
-  for tool in mmdebstrap ssh ssh-keygen; do
-    command -v $tool >/dev/null || { say "no $tool here (toolchain/install-deps.sh --packages): skipped." && exit 77; }
-  done
-  work=$(mktemp -d)
-  status=0
-  unshare --mount --pid --fork --kill-child bash "$here/$(basename "${BASH_SOURCE[0]}")" --inside "$work" || status=$?
-  rm -rf --one-file-system "$work"  # what was mounted there has gone with the namespace
-  exit "$status"
+  need_root ssh ssh-keygen systemd-nspawn
+  in_namespace
 fi
-work=$2
-. "$here/root.sh"
-base host ca-certificates,openssh-server,sudo
-enter host
+base machine ca-certificates,openssh-server,sudo,systemd-sysv,dbus
+enter machine
 
 # The users there: pilot may use sudo, guest may not.
 ssh-keygen -q -t ed25519 -N '' -f "$work/key"
@@ -36,19 +21,15 @@ for user in pilot guest; do
   in_root chown -R "$user:" "/home/$user/.ssh"
 done
 echo 'pilot ALL=(ALL) NOPASSWD: ALL' >"$root/etc/sudoers.d/pilot"
-for program in systemctl journalctl; do
-  printf '#!/bin/sh\necho "%s $*" | tee -a /tmp/calls\n[ "$2" != is-enabled ]\n' "$program" >"$root/usr/local/bin/$program"
-  chmod 755 "$root/usr/local/bin/$program"
-done
-install -m 666 /dev/null "$root/tmp/calls"
 mkdir -p "$root/run/sshd"
 port=$((20000 + RANDOM % 10000))
 in_root /usr/sbin/sshd -D -o ListenAddress=127.0.0.1 -o Port=$port -o UsePAM=no &
+server=$!
 for _ in {1..50}; do (exec 3<>/dev/tcp/127.0.0.1/$port) 2>/dev/null && break || sleep 0.1; done
 
-# deploy USER PORT: its output in $work/out.
+# deploy USER PORT [IN…]: its output in $work/out. IN: what runs it elsewhere.
 deploy() {
-  toolchain/deploy.sh "$1@127.0.0.1" -p "$2" -i "$work/key" -o StrictHostKeyChecking=no -o UserKnownHostsFile="$work/known" \
+  "${@:3}" toolchain/deploy.sh "$1@127.0.0.1" -p "$2" -i "$work/key" -o StrictHostKeyChecking=no -o UserKnownHostsFile="$work/known" \
     >"$work/out" 2>&1
 }
 # refused SENTENCE USER [PORT]
@@ -74,14 +55,33 @@ deploy pilot "$port" || { cat "$work/out"; fail "deploy.sh ended with an error";
 in_root stereod --version || fail "stereod was not installed"
 grep -q 'systemd does not run' "$work/out" || { cat "$work/out"; fail "it should say that no systemd runs"; }
 
-say "installs again, restarts, shows status and journal"
+say "the same machine with systemd: installs again, starts, shows status and journal"
+kill "$server"
+rm -rf "$root/run/sshd"
+boot
+property() { in_booted systemctl show --property "$1" --value stereod.service; }
 echo '# my own line' >>"$root/etc/stereod/stereod.yaml"
-mkdir -p "$root/run/systemd/system"
-deploy pilot "$port" || { cat "$work/out"; fail "deploy.sh ended with an error"; }
-for call in 'systemctl restart stereod' 'systemctl --no-pager --full status stereod' 'journalctl --no-pager -o cat -u stereod'; do
-  grep -qF "$call" "$root/tmp/calls" || { cat "$root/tmp/calls"; fail "it did not call '$call'"; }
-  grep -qF "$call" "$work/out" || [[ $call == *restart* ]] || fail "what '$call' said was not shown"
+deploy pilot 22 in_its_network || { cat "$work/out"; fail "deploy.sh ended with an error"; }
+for sentence in 'Active: active \(running\)' 'Status: "Waiting for cameras: ' 'state: waiting' 'but not after the next start of' 'deploy: done'; do
+  grep -qE "$sentence" "$work/out" || { cat "$work/out"; fail "it should show '$sentence'"; }
 done
+say "  $(grep -o 'Status: .*' "$work/out")"
+[[ $(grep 'Status: ' "$work/out" | grep -o 'needs two cameras' | wc -l) -eq 1 ]] || fail "what both cameras say is to be said once"
 grep -q '^# my own line$' "$root/etc/stereod/stereod.yaml" || fail "it has overwritten the configuration"
-[[ -z $(compgen -G "$root/tmp/stereod-*") ]] || fail "the package was left in /tmp"
+[[ -z $(in_booted find /tmp -maxdepth 1 -name 'stereod-*') ]] || fail "the package was left in /tmp"
+
+say "over the running service"
+pid=$(property MainPID)
+in_booted systemctl --quiet enable stereod
+deploy pilot 22 in_its_network || { cat "$work/out"; fail "deploy.sh ended with an error"; }
+[[ $(property MainPID) -ne $pid && $(property ActiveState) == active ]] || fail "it was not started anew"
+! grep -q 'not after the next start' "$work/out" || fail "it is enabled, and deploy.sh says it is not"
+
+say "a configuration that can never work"
+echo 'matchr: {}' >>"$root/etc/stereod/stereod.yaml"
+! deploy pilot 22 in_its_network || { cat "$work/out"; fail "deploy.sh should end with an error"; }
+for sentence in "matchr: is not a known key; the nearest known key is 'matcher'" 'status=78' 'deploy: stereod does not start on'; do
+  grep -qE "$sentence" "$work/out" || { cat "$work/out"; fail "it should show '$sentence'"; }
+done
+say "  $(grep -o "matchr: .*" "$work/out" | head -n 1)"
 say "passed."

@@ -5,40 +5,19 @@
 # Ends with 77, skipped, for who is not root or has no mmdebstrap. The roots and what apt fetched are kept in
 # ${XDG_CACHE_HOME:-~/.cache}/stereod/roots.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-cd "$here/../.."
-
-say() { echo "roots: $*"; }
-fail() {
-  echo "roots: FAILED: $*" >&2
-  exit 1
-}
-skip() {
-  echo "roots: $*: skipped."
-  exit 77
-}
-
-# What is done in namespaces of its own: nothing that is mounted or sent gets out of them. Root there, but the network of
-# the machine, which apt needs.
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+. tests/package/root.sh
 if [[ ${1:-} != --inside ]]; then
-  [[ $(id -u) -eq 0 ]] || skip "roots are made by root"
-  command -v mmdebstrap >/dev/null || skip "no mmdebstrap here (toolchain/install-deps.sh --packages)"
+  need_root
   debs=${1:-}
   if [[ -z $debs ]]; then
     debs=build/package
     { cmake --preset package && cmake --build --preset package -j "${JOBS:-$(nproc)}" && rm -f $debs/*.deb &&
       cpack --preset package; } >/dev/null || fail "the packages could not be made."
   fi
-  work=$(mktemp -d)
-  status=0
-  unshare --mount --pid --fork --kill-child bash "$here/$(basename "${BASH_SOURCE[0]}")" --inside "$(realpath "$debs")" "$work" ||
-    status=$?
-  rm -rf --one-file-system "$work"  # what was mounted there has gone with the namespace
-  exit "$status"
+  in_namespace "$(realpath "$debs")"
 fi
-debs=$2 work=$3
-
-. "$here/root.sh"
+debs=$2
 # apt with nobody to ask, as on a robot that updates itself: dpkg fails if it would have to ask.
 apt() { in_root apt-get -qq -y --no-install-recommends "$@" </dev/null >"$work/apt.log" 2>&1; }
 need_apt() { apt "$@" || { tail -n 30 "$work/apt.log"; fail "apt-get $*"; }; }
@@ -69,9 +48,10 @@ streams() {
     [ "$status" = 0 ] || { cat /tmp/stereod.log; echo "status $status"; exit 1; }' sh "$@"
 }
 
-[[ -n $(compgen -G "$debs/stereod_*.deb") && -n $(compgen -G "$debs/libstereod-dev_*.deb") ]] ||
-  fail "no packages in $debs"
+[[ -n $(compgen -G "$debs/stereod_*.deb") && -n $(compgen -G "$debs/libstereod-dev_*.deb") &&
+  -n $(compgen -G "$debs/stereo-calibrate_*.deb") ]] || fail "not all three packages are in $debs"
 daemon_deb=/debs/$(basename "$debs"/stereod_*.deb)
+calibrate_deb=/debs/$(basename "$debs"/stereo-calibrate_*.deb)
 development_deb=/debs/$(basename "$debs"/libstereod-dev_*.deb)
 base bare ca-certificates
 enter bare
@@ -92,7 +72,9 @@ for program in stereo-tap stereo-match stereo-view; do
 done
 streams stereo-tap check --seconds 4 >"$work/check.txt" 2>&1 || { cat "$work/check.txt"; fail "stereo-tap receives nothing"; }
 say "  $(sed -n 's/^rows  *\([0-9]*\)  *\([0-9]*\) .*/\2 of \1 rows received/p' "$work/check.txt")"
-grep -q '^PackageName: liblcm1$' "$root/usr/share/doc/stereod/bill-of-materials.spdx" || fail "the bill of materials lacks liblcm1"
+for library in liblcm1 libcpp-httplib0.11 libcli11-dev; do
+  grep -q "^PackageName: $library\$" "$root/usr/share/doc/stereod/bill-of-materials.spdx" || fail "the bill of materials lacks $library"
+done
 
 say "the same version once more"
 need_apt install --reinstall "$daemon_deb"
@@ -132,11 +114,23 @@ say "install after a purge"
 need_apt install "$daemon_deb"
 has /etc/stereod/stereod.yaml "it is installed"
 
+say "stereo-calibrate, without stereod, as on a laptop"
+need_apt purge stereod
+need_apt install "$calibrate_deb"
+has /usr/share/man/man1/stereo-calibrate.1.gz "it is installed"
+in_root stereo-calibrate board --output /tmp/board.pdf >"$work/board.txt" 2>&1 || { cat "$work/board.txt"; fail "it draws no board"; }
+has /tmp/board.pdf "a board was drawn"
+grep -q '^PackageName: libopencv-calib3d' "$root/usr/share/doc/stereo-calibrate/bill-of-materials.spdx" ||
+  fail "its bill of materials lacks OpenCV"
+need_apt purge stereo-calibrate
+left=$(cd "$root" && find etc usr lib var run -name '*stereo-calibrate*' ! -path 'var/log/*' ! -path 'var/cache/*')
+[[ -z $left ]] || fail "left behind: $left"
+
 base development ca-certificates,g++,cmake,make,pkg-config
 enter development
 say "somebody else's program"
 need_apt install "$daemon_deb" "$development_deb"
-cp -r "$here/consumer" "$root/home/consumer"
+cp -r tests/package/consumer "$root/home/consumer"
 in_root sh -ec 'cd /home/consumer && cmake -S . -B build >/dev/null && cmake --build build >/dev/null' || fail "it does not build with CMake"
 in_root sh -ec 'cd /home/consumer && g++ -std=c++17 consumer.cpp -o by-pkg-config $(pkg-config --cflags --libs stereod)' ||
   fail "it does not build with pkg-config"

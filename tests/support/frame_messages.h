@@ -36,6 +36,7 @@ inline disparity_rows_t rows_of(std::int64_t frame, int first_row, int count = k
   m.height = kHeight;
   m.first_row = first_row;
   m.row_count = count;
+  m.column_step = m.row_step = 1;
   m.disparities = 64;
   m.scale = 0.0625F;
   m.bytes_per_value = 2;
@@ -49,6 +50,20 @@ inline disparity_rows_t rows_of(std::int64_t frame, int first_row, int count = k
   }
   m.size = static_cast<std::int32_t>(m.data.size());
   return m;
+}
+
+/// Marks pixels of a message as filled; `is_filled(x, y)` is asked for each.
+template <typename IsFilled>
+void mark_filled(disparity_rows_t& m, IsFilled is_filled) {
+  const int row_bytes = (m.width + 7) / 8;
+  m.filled_size = row_bytes * m.row_count;
+  m.filled.assign(static_cast<std::size_t>(m.filled_size), 0);
+  for (int row = 0; row < m.row_count; ++row) {
+    for (int x = 0; x < m.width; ++x) {
+      std::uint8_t& byte = m.filled[static_cast<std::size_t>(row * row_bytes + x / 8)];
+      if (is_filled(x, m.first_row + row)) byte = static_cast<std::uint8_t>(byte | 1U << (x % 8));
+    }
+  }
 }
 
 /// The message after a frame's last row.

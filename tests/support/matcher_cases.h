@@ -10,14 +10,9 @@
 #include "core/match/matcher_options.h"
 #include "core/worker_pool.h"
 #include "tests/support/random_images.h"
+#include "tests/support/sanitized.h"
 
 namespace stereod {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kSanitized = true;
-#else
-inline constexpr bool kSanitized = false;
-#endif
 
 /// The instruction sets that this build has kernels for and this CPU can run.
 const std::vector<Isa>& isas_that_run();

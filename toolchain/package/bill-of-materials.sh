@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # Writes a software bill of materials (SPDX 2.3, tag-value): every library the programs load, directly or through another
 # one, and every library of which only headers were compiled in, with the Debian package and version it came from.
-#   bill-of-materials.sh --version V --sysroot FOLDER --objdump PROGRAM --output FILE PROGRAM…
+#   bill-of-materials.sh --name N --version V --headers 'PACKAGE…' --sysroot FOLDER --objdump PROGRAM --output FILE PROGRAM…
 # An empty sysroot is this machine. A sysroot is one of make-sysroot.sh, with its list of packages.
 set -euo pipefail
 umask 022  # what is installed is for everybody, whoever makes the package
 
-version= sysroot= objdump=objdump output= programs=()
+name= version= headers= sysroot= objdump=objdump output= programs=()
 while [[ $# -gt 0 ]]; do
   case $1 in
+    --name) name=$2 && shift ;;
     --version) version=$2 && shift ;;
+    --headers) headers=$2 && shift ;;
     --sysroot) sysroot=$2 && shift ;;
     --objdump) objdump=${2:-objdump} && shift ;;
     --output) output=$2 && shift ;;
@@ -17,8 +19,9 @@ while [[ $# -gt 0 ]]; do
   esac
   shift
 done
-[[ -n $output && ${#programs[@]} -gt 0 ]] || {
-  echo "usage: bill-of-materials.sh --version V --sysroot FOLDER --objdump PROGRAM --output FILE PROGRAM…" >&2
+[[ -n $name && -n $output && ${#programs[@]} -gt 0 ]] || {
+  echo "usage: bill-of-materials.sh --name N --version V --headers 'PACKAGE…' --sysroot FOLDER --objdump PROGRAM" \
+    "--output FILE PROGRAM…" >&2
   exit 1
 }
 
@@ -35,21 +38,12 @@ path_of() {
   done
 }
 
-# package version source of a file or a package
-package_of_file() {
-  local file=${1#"$sysroot"} owner
-  for candidate in "$file" "/usr$file" "${file#/usr}"; do
-    owner=$(dpkg-query ${sysroot:+--admindir="$sysroot/var/lib/dpkg"} -S "$candidate" 2>/dev/null | head -n 1) || continue
-    [[ -z $owner ]] || { echo "${owner%%: *}" && return; }
-  done
-}
-describe_package() {
-  dpkg-query ${sysroot:+--admindir="$sysroot/var/lib/dpkg"} -W -f='${Package} ${Version} ${source:Package}\n' "$1" 2>/dev/null |
-    head -n 1
-}
+query() { dpkg-query ${sysroot:+--admindir="$sysroot/var/lib/dpkg"} "$@" 2>/dev/null; }
+# package version source
+describe_package() { query -W -f='${Package} ${Version} ${source:Package}\n' "$1" | head -n 1; }
 
 declare -A seen=() packages=()
-queue=()
+queue=() libraries=()
 for program in "${programs[@]}"; do
   mapfile -t -O "${#queue[@]}" queue < <(needed_by "$program")
 done
@@ -60,26 +54,31 @@ while [[ ${#queue[@]} -gt 0 ]]; do
   seen[$library]=yes
   path=$(path_of "$library")
   [[ -n $path ]] || continue
-  package=$(package_of_file "$path")
-  [[ -z $package ]] || packages[$package]+="$library "
+  # A package may know the library with or without /usr.
+  file=${path#"$sysroot"}
+  libraries+=("$file" "/usr$file" "${file#/usr}")
   mapfile -t -O "${#queue[@]}" queue < <(needed_by "$path")
 done
-for header_only in libcli11-dev libspdlog-dev; do packages[$header_only]='(headers) '; done
+while IFS= read -r line; do
+  library=${line##*/}
+  [[ ${packages[${line%%: *}]:-} == *"$library "* ]] || packages[${line%%: *}]+="$library "
+done < <(query -S "${libraries[@]}" || true)  # an error if it knows one of the names only
+for package in $headers; do packages[$package]='(headers) '; done
 
 mkdir -p "$(dirname "$output")"
 {
   printf 'SPDXVersion: SPDX-2.3\nDataLicense: CC0-1.0\nSPDXID: SPDXRef-DOCUMENT\n'
-  printf 'DocumentName: stereod-%s\nDocumentNamespace: urn:stereod:%s\n' "$version" "$version"
+  printf 'DocumentName: %s-%s\nDocumentNamespace: urn:stereod:%s:%s\n' "$name" "$version" "$name" "$version"
   printf 'Creator: Tool: bill-of-materials.sh\nCreated: %s\n' \
     "$(date -u -d "@${SOURCE_DATE_EPOCH:-0}" +%Y-%m-%dT%H:%M:%SZ)"
-  printf '\nPackageName: stereod\nSPDXID: SPDXRef-stereod\nPackageVersion: %s\n' "$version"
+  printf '\nPackageName: %s\nSPDXID: SPDXRef-%s\nPackageVersion: %s\n' "$name" "$name" "$version"
   printf 'PackageDownloadLocation: NOASSERTION\nPackageLicenseDeclared: BSD-3-Clause\n'
-  printf '%s\n' "${!packages[@]}" | LC_ALL=C sort | while read -r name; do
-    read -r package package_version source < <(describe_package "$name") || continue
+  printf '%s\n' "${!packages[@]}" | LC_ALL=C sort | while read -r key; do
+    read -r package package_version source < <(describe_package "$key") || continue
     id=SPDXRef-${package//[^A-Za-z0-9.-]/-}
     printf '\nPackageName: %s\nSPDXID: %s\nPackageVersion: %s\n' "$package" "$id" "$package_version"
     printf 'PackageDownloadLocation: NOASSERTION\nPackageSourceInfo: Debian source package %s\n' "$source"
-    printf 'PackageComment: <text>%s</text>\n' "${packages[$name]% }"
-    printf 'Relationship: SPDXRef-stereod DEPENDS_ON %s\n' "$id"
+    printf 'PackageComment: <text>%s</text>\n' "${packages[$key]% }"
+    printf 'Relationship: SPDXRef-%s DEPENDS_ON %s\n' "$name" "$id"
   done
 } >"$output"

@@ -99,12 +99,21 @@ foreach(component IN LISTS components)
   install(FILES ${package_dir}/copyright DESTINATION ${doc_dir} COMPONENT ${component})
 endforeach()
 
-# What the programs link, by library and version: written when they are installed.
-install(CODE "execute_process(COMMAND ${package_dir}/bill-of-materials.sh
-  --version ${PROJECT_VERSION} --sysroot \"${CMAKE_SYSROOT}\" --objdump \"${CMAKE_OBJDUMP}\"
-  --output \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/doc/stereod/bill-of-materials.spdx\"
-  $<TARGET_FILE:stereod> $<TARGET_FILE:stereo-match> $<TARGET_FILE:stereo-tap> COMMAND_ERROR_IS_FATAL ANY)"
-  COMPONENT stereod)
+# What the programs of a package link, by library and version: written when they are installed.
+function(install_bill component headers)
+  list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_FILE:\\1>" OUTPUT_VARIABLE files)
+  list(JOIN files " " files)
+  install(CODE "execute_process(COMMAND ${package_dir}/bill-of-materials.sh
+    --name ${component} --version ${PROJECT_VERSION} --headers \"${headers}\"
+    --sysroot \"${CMAKE_SYSROOT}\" --objdump \"${CMAKE_OBJDUMP}\"
+    --output \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/doc/${component}/bill-of-materials.spdx\"
+    ${files} COMMAND_ERROR_IS_FATAL ANY)"
+    COMPONENT ${component})
+endfunction()
+install_bill(stereod "libcli11-dev libspdlog-dev" ${programs})
+if(TARGET stereo-calibrate)
+  install_bill(stereo-calibrate "libcli11-dev" stereo-calibrate)
+endif()
 
 # --- cpack
 set(CPACK_GENERATOR DEB)

@@ -98,17 +98,10 @@ bool CameraPair::take_device(Side side, const std::string& device) {
   const std::lock_guard lock(mutex_);
   of(side).device.clear();
   of(side).flowing = false;
-  of(side).present = false;
-  if (device.empty() && !of(opposite(side)).present) begin_ladder_anew();
+  if (device.empty() && !of(opposite(side)).present()) begin_ladder_anew();
   if (!device.empty() && device == of(opposite(side)).device) return false;
   of(side).device = device;
-  of(side).present = !device.empty();
   return true;
-}
-
-void CameraPair::release_device(Side side) {
-  const std::lock_guard lock(mutex_);
-  of(side).device.clear();
 }
 
 void CameraPair::set_facts(Side side, const StreamFacts& facts) {
@@ -153,7 +146,7 @@ std::string CameraPair::bandwidth_sentence(Side side) {
   const Camera& own = of(side);
   const Camera& other = of(opposite(side));
   std::string sentence = "the bus " + own.bus + " cannot carry " + describe(own.facts);
-  if (other.present && on_same_bus()) {
+  if (other.present() && on_same_bus()) {
     sentence += " beside the other camera's " + describe(other.facts);
   }
   const bool compressed = own.facts.pixels != nullptr && own.facts.pixels->work == LumaWork::kJpeg;

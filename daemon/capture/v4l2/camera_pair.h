@@ -37,8 +37,6 @@ class CameraPair {
   /// `device` (VideoSystem::camera_of) is the other camera's already: then it is not taken, and this is
   /// false. Empty: this camera is gone.
   bool take_device(Side side, const std::string& device);
-  /// Whatever device this camera had, the other one may have it now.
-  void release_device(Side side);
 
   /// What a camera was set up as, and whether frames come.
   void set_facts(Side side, const StreamFacts& facts);
@@ -80,8 +78,9 @@ class CameraPair {
 
  private:
   struct Camera {
-    std::string device;    // which the other camera may not have
-    bool present = false;  // when it was last looked for
+    bool present() const { return !device.empty(); }
+
+    std::string device;  // found when it was last looked for; the other camera may not have it
     StreamFacts facts;
     std::string bus;  // where it is, or was when it was last there
     bool flowing = false;

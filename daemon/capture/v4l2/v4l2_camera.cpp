@@ -1,6 +1,7 @@
 #include "daemon/capture/v4l2/v4l2_camera.h"
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cstdio>
 #include <exception>
@@ -16,7 +17,8 @@ constexpr std::int64_t kRetry = kSecond / 2;  // after a failure
 constexpr std::int64_t kLookAgain = kSecond;  // for an absent camera, should an event be missed
 // Until a frame comes after a start: webcams may take two seconds when they have just been plugged in, and
 // most are faster after that. Once a camera has shown how long it takes it is not waited for much longer, so
-// that one that needs a new start to come to itself gets it soon.
+// that one that needs a new start to come to itself gets it soon; and so that one that has never delivered
+// does, only its first, second, fourth, eighth … start is given that long.
 constexpr std::int64_t kColdStart = 3 * kSecond;
 constexpr std::int64_t kSilence = kSecond;
 constexpr std::int64_t kLoanCheck = kSecond / 100;
@@ -191,6 +193,7 @@ FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
   if (lease) {
     const std::int64_t now_ns = system_.now_ns();
     if (!had_frame_) longest_start_ns_ = std::max(longest_start_ns_, now_ns - last_good_ns_);
+    starts_in_vain_ = 0;
     last_good_ns_ = now_ns;
     buffers_at_last_good_ = stream_.buffers_seen();
     if (state_ != CameraState::kStreaming) streaming();
@@ -262,13 +265,17 @@ void V4l2Camera::streaming() {
 }
 
 std::int64_t V4l2Camera::patience_ns() const noexcept {
-  if (!had_frame_ && longest_start_ns_ == 0) return std::max(kColdStart, 4 * frame_time_ns_.load());
-  const std::int64_t start_ns = had_frame_ ? 0 : longest_start_ns_ + longest_start_ns_ / 2;
+  std::int64_t start_ns = 0;
+  if (!had_frame_) {
+    const bool cold = longest_start_ns_ == 0 && std::has_single_bit(starts_in_vain_ + 1);
+    start_ns = cold ? kColdStart : longest_start_ns_ + longest_start_ns_ / 2;
+  }
   return std::max({kSilence, std::min(start_ns, kColdStart), 4 * frame_time_ns_.load()});
 }
 
 void V4l2Camera::check_silence(std::int64_t now_ns) {
   if (now_ns - last_good_ns_ < patience_ns()) return;
+  if (!had_frame_) ++starts_in_vain_;
   const std::int64_t damaged = stream_.buffers_seen() - buffers_at_last_good_;
   CameraFault fault{CameraReason::kSilent, CameraStep::kWait, 0,
                     node_ + " has fallen silent; it is set up again until frames come"};
@@ -307,9 +314,10 @@ void V4l2Camera::fail(CameraState state, CameraFault fault) {
   stream_.stop();
   pair_->set_flowing(side_, false);
   pair_->stopped(side_);
-  // What is lost or gone may be plugged in again as the other camera.
-  if (state == CameraState::kLost || state == CameraState::kAbsent) pair_->release_device(side_);
-  if (look_again) longest_start_ns_ = 0;  // the next may be another camera, or a cold one
+  if (look_again) {  // the next may be another camera, or a cold one
+    longest_start_ns_ = 0;
+    starts_in_vain_ = 0;
+  }
   restart_wanted_ = false;
   phase_ = Phase::kClosing;
   retry_ns_ = system_.now_ns() + (look_again ? kLookAgain : kRetry);

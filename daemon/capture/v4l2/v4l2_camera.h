@@ -85,9 +85,10 @@ class V4l2Camera final : public FrameSource {
   std::int64_t buffers_at_last_good_ = 0;
   bool had_frame_ = false;       // since it was opened
   bool restart_wanted_ = false;  // to bring it into phase with the other camera
-  std::int64_t longest_start_ns_ =
-      0;                   // from a start to its first frame, since it was plugged in; 0: none came
-  int silent_starts_ = 0;  // how often it was opened in vain while the other camera had the bus
+  // From a start to its first frame, since it was plugged in; 0: none came.
+  std::int64_t longest_start_ns_ = 0;
+  unsigned starts_in_vain_ = 0;  // since it last had a frame or was plugged in
+  int silent_starts_ = 0;        // how often it was opened in vain while the other camera had the bus
   std::atomic<std::int64_t> frame_time_ns_{0};
 
   mutable std::mutex mutex_;  // guards what follows, for report()

@@ -55,6 +55,13 @@ double valid_share(DisparityView disparity) {
   return static_cast<double>(valid) / (static_cast<double>(disparity.width()) * disparity.height());
 }
 
+/// Where the pixels are in the rectified image, unless they are all of it from its corner on.
+std::string grid_in_words(const PixelGrid& grid) {
+  if (grid == PixelGrid{}) return "";
+  return " (from column " + std::to_string(grid.left) + ", row " + std::to_string(grid.top) + " on, steps " +
+         std::to_string(grid.column_step) + " x " + std::to_string(grid.row_step) + ")";
+}
+
 /// Writes frame-NUMBER.pfm and frame-NUMBER.png and says so.
 void save(const StereoFrame& frame, const std::filesystem::path& directory, std::optional<DepthScale> depth) {
   char name[40];
@@ -70,9 +77,9 @@ void save(const StereoFrame& frame, const std::filesystem::path& directory, std:
   write_disparity_pfm(pfm, disparity, frame.units_per_pixel);
   const ColorImage picture = draw_disparity(disparity, frame.units_per_pixel, look);
   write_png(png, picture.view());
-  std::printf("%s and .png: %d x %d, %s %% valid, scale in %s\n", pfm.c_str(), disparity.width(),
-              disparity.height(), fixed(100 * valid_share(disparity), 1).c_str(),
-              depth ? "metres" : "pixels");
+  std::printf("%s and .png: %d x %d%s, %s %% valid, scale in %s\n", pfm.c_str(), disparity.width(),
+              disparity.height(), grid_in_words(frame.grid).c_str(),
+              fixed(100 * valid_share(disparity), 1).c_str(), depth ? "metres" : "pixels");
   std::fflush(stdout);
 }
 

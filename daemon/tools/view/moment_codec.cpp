@@ -77,6 +77,8 @@ JsonObject json_of(const StereoFrame& frame, int step) {
   JsonObject json;
   json.add("frame", frame.frame).add("utime", frame.utime);
   json.add("width", frame.disparity.width()).add("height", frame.disparity.height()).add("step", step);
+  json.add("left", frame.grid.left).add("top", frame.grid.top);
+  json.add("column_step", frame.grid.column_step).add("row_step", frame.grid.row_step);
   json.add("units_per_pixel", frame.units_per_pixel).add("min_disparity", frame.min_disparity);
   json.add("disparities", frame.disparities).add("complete", frame.complete());
   json.add("rows_received", frame.rows_received).add("rows_expected", frame.rows_expected);

@@ -21,6 +21,10 @@ const depthOf = (units, f) => {
   return shift > 0 ? f.camera.fx * f.camera.baseline_m / shift : Infinity;
 };
 
+// Where a pixel of what is published lies in the rectified image.
+const rectifiedX = (frame, x) => frame.left + x * frame.column_step;
+const rectifiedY = (frame, y) => frame.top + y * frame.row_step;
+
 async function inflated(bytes) {
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
   return new Int16Array(await new Response(stream).arrayBuffer());
@@ -91,11 +95,12 @@ function drawCloud(frame, values) {
       if (value < 0) continue;
       const z = depthOf(value, frame);
       if (!(z < 20)) continue;
-      const px = x * frame.step, py = y * frame.step;
+      const px = rectifiedX(frame, x * frame.step), py = rectifiedY(frame, y * frame.step);
       points[n] = (px - cx) * z / fx;
       points[n + 1] = (py - cy) * z / fy;
       points[n + 2] = z;
-      const grey = leftImage && leftImage.width === frame.width ? leftImage.data[4 * (py * frame.width + px)] / 255 : 0.8;
+      const seen = leftImage && px < leftImage.width && py < leftImage.height;
+      const grey = seen ? leftImage.data[4 * (py * leftImage.width + px)] / 255 : 0.8;
       colours[n] = grey;
       colours[n + 1] = grey * 0.97;
       colours[n + 2] = grey * 0.9;
@@ -178,7 +183,7 @@ function showFrame(frame, values) {
   }
 }
 
-// The disparity and depth that the newest frame has at a place of the full image; null outside.
+// The disparity and depth that the newest frame has at a pixel of what is published; null outside.
 view.at = (x, y) => {
   const frame = view.moment && view.moment.frame;
   if (!frame || x < 0 || y < 0 || x >= frame.width || y >= frame.height) return null;
@@ -193,17 +198,21 @@ for (const id of ['left', 'disparity']) {
     const frame = view.moment && view.moment.frame;
     if (!frame) return;
     const box = event.target.getBoundingClientRect();
-    view.pointer = [Math.floor((event.clientX - box.left) / box.width * frame.width),
-                    Math.floor((event.clientY - box.top) / box.height * frame.height)];
+    const right = (event.clientX - box.left) / box.width, down = (event.clientY - box.top) / box.height;
+    // The left image is all of the rectified image; the disparity may be a part of it.
+    view.pointer = id === 'left' && leftImage
+      ? [Math.floor((right * leftImage.width - frame.left) / frame.column_step),
+         Math.floor((down * leftImage.height - frame.top) / frame.row_step)]
+      : [Math.floor(right * frame.width), Math.floor(down * frame.height)];
     showPointer();
   });
 }
 
 function showPointer() {
-  const found = view.pointer && view.at(...view.pointer);
-  if (!found) return;
-  const where = `(${view.pointer[0]}, ${view.pointer[1]}): `;
-  byId('pointer').textContent = where + (found.disparity === null ? 'no disparity'
+  if (!view.pointer || !view.moment || !view.moment.frame) return;
+  const found = view.at(...view.pointer), frame = view.moment.frame;
+  const where = `(${rectifiedX(frame, view.pointer[0])}, ${rectifiedY(frame, view.pointer[1])}): `;
+  byId('pointer').textContent = where + (found === null ? 'not published' : found.disparity === null ? 'no disparity'
     : `${found.disparity.toFixed(2)} px` + (found.depth === null ? '' : `, ${found.depth.toFixed(3)} m`));
 }
 
@@ -232,7 +241,7 @@ function download(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-// The disparities in px as PFM (infinite where there is none), as stereo-tap save writes them.
+// The disparities in px of the rectified image as PFM (infinite where there is none), as stereo-tap save writes them.
 view.pfm = () => {
   const frame = view.moment.frame, width = Math.ceil(frame.width / frame.step), height = Math.ceil(frame.height / frame.step);
   const head = new TextEncoder().encode(`Pf\n${width} ${height}\n-1\n`);
@@ -240,7 +249,7 @@ view.pfm = () => {
   for (let y = 0; y < height; ++y) {
     for (let x = 0; x < width; ++x) {
       const value = view.values[y * width + x];
-      body[(height - 1 - y) * width + x] = value < 0 ? Infinity : value / frame.units_per_pixel / frame.step;
+      body[(height - 1 - y) * width + x] = value < 0 ? Infinity : value / frame.units_per_pixel;
     }
   }
   return new Blob([head, body]);

@@ -7,7 +7,7 @@ import stereod.disparity_rows_t;
 
 class RowsPicture {
     private static final int LARGEST_SIDE = 4096;
-    private static final int UNMATCHED = 0x222224;
+    private static final int UNMATCHED = 0x222224;  // also what was filled in: only what was measured is shown
     private static final int[][] STOPS = {{27, 20, 84}, {98, 40, 140}, {186, 66, 120}, {240, 130, 90}, {252, 240, 170}};
 
     private BufferedImage picture;
@@ -20,7 +20,17 @@ class RowsPicture {
         return m.width > 0 && m.width <= LARGEST_SIDE && m.height > 0 && m.height <= LARGEST_SIDE && m.first_row >= 0
             && m.row_count > 0 && m.row_count <= m.height - m.first_row && m.disparities > 0 && m.scale > 0
             && (m.bytes_per_value == 1 || m.bytes_per_value == 2)
-            && m.data.length == m.width * m.row_count * m.bytes_per_value;
+            && m.data.length == m.width * m.row_count * m.bytes_per_value
+            && isSaneAxis(m.left, m.column_step, m.width) && isSaneAxis(m.top, m.row_step, m.height)
+            && (m.filled.length == 0 || m.filled.length == (m.width + 7) / 8 * m.row_count);
+    }
+
+    private static boolean isSaneAxis(int first, int step, int count) {
+        return first >= 0 && first < LARGEST_SIDE && step > 0 && step <= LARGEST_SIDE && first + (count - 1) * step < LARGEST_SIDE;
+    }
+
+    private static boolean isFilled(disparity_rows_t m, int x, int row) {
+        return m.filled.length > 0 && (m.filled[row * ((m.width + 7) / 8) + x / 8] >> x % 8 & 1) != 0;
     }
 
     /** Draws the rows; the picture of the frame before, once a new one begins; else null. */
@@ -52,7 +62,8 @@ class RowsPicture {
         double range = Math.max(m.disparities / (double) m.scale - 1, 1), least = m.min_disparity / (double) m.scale;
         for (int i = 0; i < m.width * m.row_count; i++) {
             int value = m.bytes_per_value == 1 ? m.data[i] & 0xFF : m.data[2 * i] & 0xFF | (m.data[2 * i + 1] & 0xFF) << 8;
-            int colour = value == m.invalid ? UNMATCHED : colourOf((value - least) / range);
+            boolean measured = value != m.invalid && !isFilled(m, i % m.width, i / m.width);
+            int colour = measured ? colourOf((value - least) / range) : UNMATCHED;
             picture.setRGB(i % m.width, m.first_row + i / m.width, colour);
         }
     }
