@@ -187,7 +187,7 @@ TEST_P(PipelineOutput, IsEveryRowOfEveryFrameToTheBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pipeline, PipelineOutput,
-                         testing::Combine(testing::Values("thesis", "fast", "robust"),
+                         testing::Combine(testing::Values("thesis", "fast", "robust", "dense", "fine"),
                                           testing::Values(1, 2, 5)));
 
 TEST(Pipeline, MessagesOfAFrameShareItsTimeAndFollowItsRows) {
@@ -206,10 +206,13 @@ TEST(Pipeline, MessagesOfAFrameShareItsTimeAndFollowItsRows) {
 
 TEST(Pipeline, AllocatesNothingPerFrame) {
   if (!AllocationCounter::supported()) GTEST_SKIP() << "allocations cannot be counted in this build";
-  for (const char* preset : {"thesis", "fast", "robust"}) {
+  for (const char* preset : {"thesis", "fast", "robust", "dense", "fine"}) {
     for (const Implementation implementation :
          {Implementation::kNaive, Implementation::kSliding, Implementation::kSimd}) {
       Config config = config_for(preset, 2);
+      // The semi-global matcher's definition is no program for a robot.
+      const bool defines = config.matcher.method == Method::kSemiglobal;
+      if (defines && implementation != Implementation::kSimd) continue;
       config.matcher.implementation = implementation;
       config.matcher.disparities = 16;
       FakeBus bus(false);

@@ -1,6 +1,7 @@
 #include "core/match/semiglobal/semiglobal_matcher.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/match/isa.h"
 
@@ -43,8 +44,8 @@ SemiglobalMatcher::SemiglobalMatcher(const MatcherOptions& options, Size image)
       right_input_(shape_.row_bytes() + 2 * kMargin, 2 * kCensusReach + 2 + kRowsAhead),
       pixel_costs_(options_, shape_, kernel_),
       costs_((shape_.grid_width() + 2) * shape_.point_bytes(), kCostRows),
+      limits_(shape_.grid_width() + 1, kCostRows),
       padding_(static_cast<std::size_t>(shape_.point_bytes())),
-      limits_(shape_.grid_width() + 1, 2),
       smoothed_(shape_.grid_width() * shape_.point_bytes(), 2),
       sums_(shape_.grid_width() * shape_.point_bytes(), 2),
       winners_(shape_.grid_width(), 2),
@@ -75,9 +76,7 @@ RowRange SemiglobalMatcher::push(int y) noexcept {
   pad_row(left_row(y));
   pad_row(right_row(y));
   while (compared_end_ < compared_.end && (2 * compared_end_ + kCensusReach <= y || y == image_.height - 1)) {
-    const int row = 2 * compared_end_;
-    pixel_costs_.write(pixel_rows(left_input_, row), pixel_rows(right_input_, row), cost_row(compared_end_));
-    ++compared_end_;
+    compare_row(compared_end_++);
     while (matched_end_ < matched_.end &&
            compared_end_ >= std::min(matched_end_ + kSmoothReach + 2, compared_.end)) {
       match_two_rows();
@@ -104,14 +103,17 @@ semiglobal::PixelRows SemiglobalMatcher::pixel_rows(RowRing<std::uint8_t>& input
   return rows;
 }
 
-// P2 less the step in grey values from each point of a row to the one at its left.
-void SemiglobalMatcher::limit_steps(int g, std::uint8_t* p2) noexcept {
+// Takes all that the later stages need of the input, whose rows do not stay.
+void SemiglobalMatcher::compare_row(int g) noexcept {
+  const int y = 2 * g;
+  pixel_costs_.write(pixel_rows(left_input_, y), pixel_rows(right_input_, y), cost_row(g));
   const int width = shape_.grid_width();
   const int step = shape_.column_step;
-  const std::uint8_t* grey = left_row(2 * g);
+  const std::uint8_t* const grey = left_row(y);
+  std::uint8_t* const limits = limits_.row(g);
   for (int x = 1; x < width; ++x) {
     const int change = std::abs(grey[x * step] - grey[(x - 1) * step]);
-    p2[x] = static_cast<std::uint8_t>(std::max(options_.p2 - change, 0));
+    limits[x] = static_cast<std::uint8_t>(std::max(options_.p2 - change, 0));
   }
 }
 
@@ -124,8 +126,7 @@ void SemiglobalMatcher::match_two_rows() noexcept {
   }
   rows.padding = padding_.data();
   for (int i = 0; i < 2; ++i) {
-    limit_steps(std::min(first + i, matched_.end - 1), limits_.row(i));
-    rows.p2[i] = limits_.row(i);
+    rows.p2[i] = limits_.row(std::min(first + i, matched_.end - 1));
     rows.smoothed[i] = smoothed_.row(i);
     rows.sums[i] = sums_.row(i);
     rows.winners[i] = winners_.row(i);
@@ -226,7 +227,7 @@ std::size_t SemiglobalMatcher::scratch_bytes() const noexcept {
     return static_cast<std::size_t>(image.view().stride()) * static_cast<std::size_t>(image.height());
   };
   return left_input_.bytes() + right_input_.bytes() + pixel_costs_.scratch_bytes() + costs_.bytes() +
-         padding_.size() + bytes(limits_) + bytes(smoothed_) + bytes(sums_) + bytes(winners_) +
+         limits_.bytes() + padding_.size() + bytes(smoothed_) + bytes(sums_) + bytes(winners_) +
          tests_.scratch_bytes() + raw_.bytes() + bytes(median_) + wide_.bytes() + bytes(between_) +
          output_rows_.bytes();
 }

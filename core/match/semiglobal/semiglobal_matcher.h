@@ -45,7 +45,7 @@ class SemiglobalMatcher final : public BandMatcher {
 
   void pad_row(std::uint8_t* row) const noexcept;
   semiglobal::PixelRows pixel_rows(RowRing<std::uint8_t>& input, int y) const noexcept;
-  void limit_steps(int g, std::uint8_t* p2) noexcept;
+  void compare_row(int g) noexcept;
   void match_two_rows() noexcept;
   void judge_row(int g, int of_two) noexcept;
   void finish_grid_row(int g) noexcept;
@@ -66,9 +66,10 @@ class SemiglobalMatcher final : public BandMatcher {
 
   RowRing<std::uint8_t> left_input_, right_input_;
   semiglobal::PixelCosts pixel_costs_;
-  RowRing<std::uint8_t> costs_;  // with a point's worth on either side
+  RowRing<std::uint8_t> costs_;   // with a point's worth on either side
+  RowRing<std::uint8_t> limits_;  // P2 less the step in grey values from each point to the one at its left
   AlignedBuffer<std::uint8_t> padding_;
-  Image<std::uint8_t> limits_, smoothed_, sums_;  // of two rows
+  Image<std::uint8_t> smoothed_, sums_;  // of two rows
   Image<std::uint16_t> winners_;
   semiglobal::WinnerTests tests_;
   RowRing<GridValue> raw_;   // rows of the grid, before and
