@@ -84,7 +84,8 @@ void read_rectify(YamlSection section, RectifyConfig& rectify) {
 // Keys that the matcher chosen has no use for are more likely a mistake than a wish.
 void refuse_keys_of_other_method(YamlSection& section, Method method) {
   const auto refuse = [&](const char* key, const char* owner) {
-    if (section.has(key)) section.fail(key, "belongs to method: " + std::string(owner) + ", which is not the one chosen");
+    if (section.has(key))
+      section.fail(key, "belongs to method: " + std::string(owner) + ", which is not the one chosen");
   };
   if (method == Method::kSemiglobal) {
     for (const char* key : {"window", "texture_threshold", "cost", "cache"}) refuse(key, "block");
@@ -109,8 +110,7 @@ void read_matcher(YamlSection section, MatcherOptions& options) {
   const auto chosen = matcher_preset(preset);
   if (!chosen) section.fail("preset", "found '" + preset + "', allowed are " + std::string(kMatcherPresets));
   options = *chosen;
-  options.method =
-      section.choice<Method>("method", options.method, "block and semiglobal", parse_method);
+  options.method = section.choice<Method>("method", options.method, "block and semiglobal", parse_method);
   refuse_keys_of_other_method(section, options.method);
   read_semiglobal(section, options);
   options.min_disparity = section.integer("min_disparity", options.min_disparity, 0, 1024);

@@ -165,8 +165,9 @@ TEST(SemiglobalAgreement, EveryKernelGivesWhatTheDefinitionGives) {
       if (same) same = same_disparities(unfiltered, match_bands(c, options, bands).view());
       if (!same) ++failures;
       EXPECT_TRUE(same) << "  seed " << seed << ", " << c.size.width << "x" << c.size.height << ", "
-                        << workers << " workers, " << bands << " bands, " << (c.left_mask ? "left mask, " : "")
-                        << (c.right_mask ? "right mask, " : "") << describe(options);
+                        << workers << " workers, " << bands << " bands, "
+                        << (c.left_mask ? "left mask, " : "") << (c.right_mask ? "right mask, " : "")
+                        << describe(options);
     }
   }
   if (cases >= 50) {

@@ -202,7 +202,8 @@ DisparityImage oracle_speckle(const DisparityImage& disparities, int speckle_siz
         for (const auto& [qx, qy] : neighbours) {
           if (qx < 0 || qx >= width || qy < 0 || qy >= height || visited.at(qx, qy)) continue;
           if (disparities.at(qx, qy) == kInvalidDisparity) continue;
-          const int step = std::abs(disparity_of(disparities.at(px, py)) - disparity_of(disparities.at(qx, qy)));
+          const int step =
+              std::abs(disparity_of(disparities.at(px, py)) - disparity_of(disparities.at(qx, qy)));
           if (step > max_difference_in_units) continue;
           visited.at(qx, qy) = 1;
           region.emplace_back(qx, qy);
