@@ -12,7 +12,8 @@
 namespace stereod {
 
 /// Matches one band of a rectified pair at a time. Each worker owns one; it holds all scratch memory and
-/// shares nothing. After construction it allocates nothing and throws nothing.
+/// shares nothing. After construction it allocates nothing and throws nothing (but for the naive semi-global
+/// one, which is a definition to compare with).
 ///
 /// A band goes like this:
 ///   rows = begin({first, end});            the input rows it wants, with the halo above and below

@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
-#include <string>
-
-#include "core/match/isa.h"
 
 namespace stereod {
 namespace {
@@ -172,14 +168,6 @@ std::size_t BlockMatcher::scratch_bytes() const noexcept {
          raw_.bytes() + median_.bytes() + (search_ ? search_->scratch_bytes() : 0) +
          (left_right_check_ ? left_right_check_->scratch_bytes() : 0) +
          (texture_check_ ? texture_check_->scratch_bytes() : 0) + winners_.size() * winners_.front().bytes();
-}
-
-std::unique_ptr<BandMatcher> make_band_matcher(const MatcherOptions& options, Size image) {
-  if (const auto problem = problem_with(options)) throw std::invalid_argument(*problem);
-  if (image.width < 1 || image.height < 1)
-    throw std::invalid_argument("an image to match has at least one pixel");
-  if (options.implementation == Implementation::kSimd) resolve_isa(options.isa);
-  return std::make_unique<BlockMatcher>(options, image);
 }
 
 }  // namespace stereod

@@ -9,6 +9,8 @@ namespace {
 template <typename Enum, std::size_t N>
 using Names = std::array<std::pair<Enum, std::string_view>, N>;
 
+constexpr Names<Method, 2> kMethods{{{Method::kBlock, "block"}, {Method::kSemiglobal, "semiglobal"}}};
+constexpr Names<Grid, 2> kGrids{{{Grid::kCoarse, "coarse"}, {Grid::kFine, "fine"}}};
 constexpr Names<Implementation, 3> kImplementations{{{Implementation::kNaive, "naive"},
                                                      {Implementation::kSliding, "sliding"},
                                                      {Implementation::kSimd, "simd"}}};
@@ -47,6 +49,8 @@ std::optional<std::string> outside(std::string_view option, int value, int least
 
 }  // namespace
 
+std::string_view name_of(Method method) { return find_name(kMethods, method); }
+std::string_view name_of(Grid grid) { return find_name(kGrids, grid); }
 std::string_view name_of(Implementation implementation) {
   return find_name(kImplementations, implementation);
 }
@@ -55,6 +59,8 @@ std::string_view name_of(CacheUse cache) { return find_name(kCacheUses, cache); 
 std::string_view name_of(Prefilter prefilter) { return find_name(kPrefilters, prefilter); }
 std::string_view name_of(Cost cost) { return find_name(kCosts, cost); }
 
+std::optional<Method> parse_method(std::string_view name) { return find_value(kMethods, name); }
+std::optional<Grid> parse_grid(std::string_view name) { return find_value(kGrids, name); }
 std::optional<Implementation> parse_implementation(std::string_view name) {
   return find_value(kImplementations, name);
 }
@@ -72,18 +78,55 @@ std::optional<MatcherOptions> matcher_preset(std::string_view name) {
   }
   // Chosen on the Middlebury sets, see docs/measurements.md; a cap of 20 instead of OpenCV's 31 costs
   // nothing.
-  options.prefilter_cap = 20;
-  if (name == "fast") return options;
-  if (name == "robust") {
-    options.texture_threshold = 100;
-    options.uniqueness_ratio = 10;
-    options.left_right_max_diff = 1;
-    options.median = 5;
-    options.speckle_size = 50;
+  if (name == "fast") {
+    options.prefilter_cap = 20;
+    return options;
+  }
+  options.method = Method::kSemiglobal;
+  options.left_right_max_diff = 1;
+  options.median = 3;
+  if (name == "robust") return options;
+  if (name == "dense") {
+    options.fill = true;
+    return options;
+  }
+  if (name == "fine") {
+    options.grid = Grid::kFine;
     return options;
   }
   return std::nullopt;
 }
+
+namespace {
+
+// What block matching alone can do, and what semi-global matching alone can.
+std::optional<std::string> problem_with_method(const MatcherOptions& o) {
+  const auto only = [&](std::string_view option, const std::string& value, const std::string& remedy) {
+    return std::string(option) + " is " + value + " but method is " + std::string(name_of(o.method)) + "; " +
+           remedy;
+  };
+  if (o.method == Method::kBlock) {
+    if (o.fill) return only("fill", "true", "only method: semiglobal fills, so set fill: false");
+    return std::nullopt;
+  }
+  if (o.cost != Cost::kSad) {
+    return only("cost", std::string(name_of(o.cost)), "costs other than sad exist only in method: block");
+  }
+  if (o.prefilter == Prefilter::kNone) {
+    return only("prefilter", "none", "it compares gradients, so leave prefilter: xsobel");
+  }
+  if (o.texture_threshold > 0) {
+    return only("texture_threshold", std::to_string(o.texture_threshold),
+                "that test exists only in method: block, so set texture_threshold: 0");
+  }
+  if (o.median == 5) return only("median", "5", "it has a median of 3 or none (0)");
+  if (o.implementation == Implementation::kSliding) {
+    return only("implementation", "sliding", "that exists only in method: block; naive and simd are allowed");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 std::optional<std::string> problem_with(const MatcherOptions& o) {
   for (const auto& problem : {
@@ -96,6 +139,10 @@ std::optional<std::string> problem_with(const MatcherOptions& o) {
            outside("left_right_max_diff", o.left_right_max_diff, -1, 255),
            outside("speckle_size", o.speckle_size, 0, 1'000'000),
            outside("speckle_max_diff", o.speckle_max_diff, 0, 255),
+           outside("p1", o.p1, 0, 255),
+           outside("p2", o.p2, 0, 255),
+           outside("census_weight", o.census_weight, 0, 16),
+           outside("gradient_limit", o.gradient_limit, 0, 126),
        }) {
     if (problem) return problem;
   }
@@ -104,6 +151,7 @@ std::optional<std::string> problem_with(const MatcherOptions& o) {
   if (o.median != 0 && o.median != 3 && o.median != 5) {
     return "median is " + std::to_string(o.median) + ", allowed are 0 (off), 3 and 5";
   }
+  if (const auto problem = problem_with_method(o)) return problem;
   if (o.texture_threshold > 0 && o.prefilter == Prefilter::kNone) {
     return "texture_threshold is " + std::to_string(o.texture_threshold) +
            " but prefilter is none; the texture is measured on the xsobel picture, so set prefilter: xsobel "

@@ -15,6 +15,9 @@ static_assert(std::endian::native == std::endian::little);  // the first of eigh
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+// A pixel hangs together with its neighbours by its disparity, measured or filled in.
+std::int16_t disparity_of(std::int16_t value) { return is_filled(value) ? filled_disparity(value) : value; }
+
 }  // namespace
 
 SpeckleFilter::SpeckleFilter(Size image)
@@ -68,8 +71,8 @@ void SpeckleFilter::mark_cuts(const std::int16_t* row, int max_step) noexcept {
       static_cast<std::int16_t>(std::min<int>(max_step, std::numeric_limits<std::int16_t>::max()));
   std::uint8_t* __restrict cuts = cuts_.data();
   for (int x = 1; x < width; ++x) {
-    const std::int16_t here = row[x];
-    const std::int16_t before = row[x - 1];
+    const std::int16_t here = disparity_of(row[x]);
+    const std::int16_t before = disparity_of(row[x - 1]);
     const auto up = static_cast<std::int16_t>(here - before);
     const auto down = static_cast<std::int16_t>(before - here);
     const auto step = up > down ? up : down;
@@ -91,7 +94,7 @@ void SpeckleFilter::join_rows(const std::int16_t* upper, const std::int16_t* low
     const Run& b = runs_[at(below)];
     const int end = std::min(a.end, b.end);
     for (int x = std::max(a.first, b.first); x < end; ++x) {
-      if (std::abs(upper[x] - lower[x]) <= max_step) {
+      if (std::abs(disparity_of(upper[x]) - disparity_of(lower[x])) <= max_step) {
         unite(above, below);
         break;
       }

@@ -82,11 +82,38 @@ void read_rectify(YamlSection section, RectifyConfig& rectify) {
   section.finish();
 }
 
+// Keys that the matcher chosen has no use for are more likely a mistake than a wish.
+void refuse_keys_of_other_method(YamlSection& section, Method method) {
+  const auto refuse = [&](const char* key, const char* owner) {
+    if (section.has(key))
+      section.fail(key, "belongs to method: " + std::string(owner) + ", which is not the one chosen");
+  };
+  if (method == Method::kSemiglobal) {
+    for (const char* key : {"window", "texture_threshold", "cost", "cache"}) refuse(key, "block");
+  } else {
+    for (const char* key : {"grid", "p1", "p2", "census_weight", "gradient_limit", "fill"}) {
+      refuse(key, "semiglobal");
+    }
+  }
+}
+
+void read_semiglobal(YamlSection& section, MatcherOptions& options) {
+  options.grid = section.choice<Grid>("grid", options.grid, "coarse and fine", parse_grid);
+  options.p1 = section.integer("p1", options.p1, 0, 255);
+  options.p2 = section.integer("p2", options.p2, 0, 255);
+  options.census_weight = section.integer("census_weight", options.census_weight, 0, 16);
+  options.gradient_limit = section.integer("gradient_limit", options.gradient_limit, 0, 126);
+  options.fill = section.flag("fill", options.fill);
+}
+
 void read_matcher(YamlSection section, MatcherOptions& options) {
   const std::string preset = section.text("preset", "robust");
   const auto chosen = matcher_preset(preset);
   if (!chosen) section.fail("preset", "found '" + preset + "', allowed are " + std::string(kMatcherPresets));
   options = *chosen;
+  options.method = section.choice<Method>("method", options.method, "block and semiglobal", parse_method);
+  refuse_keys_of_other_method(section, options.method);
+  read_semiglobal(section, options);
   options.min_disparity = section.integer("min_disparity", options.min_disparity, 0, 1024);
   options.disparities = section.integer("disparities", options.disparities, 1, 256);
   options.window = section.integer("window", options.window, 3, 31);

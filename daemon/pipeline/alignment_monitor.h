@@ -23,7 +23,7 @@ struct AlignmentFigures {
 /// whatever the CPU. Remembers what was found in the last kWindow_s, or longer where that were few points.
 class AlignmentMonitor {
  public:
-  static constexpr double kShare = 0.015;
+  static constexpr double kShare = 0.05;
 
   AlignmentMonitor(Size image, int min_disparity, int disparities);
 

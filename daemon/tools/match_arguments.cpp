@@ -18,10 +18,11 @@ struct Flags {
   std::string left, right;
   std::optional<std::string> output, color, calibration, config, ground_truth;
   std::vector<std::string> rectified;
-  std::optional<std::string> preset, implementation, isa, cost;
-  std::optional<int> disparities, min_disparity, window, threads, repeat;
+  std::optional<std::string> preset, method, grid, implementation, isa, cost;
+  std::optional<int> disparities, min_disparity, window, p1, p2, threads, repeat;
   std::optional<std::string> interpolation;
   std::optional<double> gt_scale, zoom;
+  bool fill = false;
 };
 
 void declare(CLI::App& app, Flags& flags) {
@@ -34,7 +35,12 @@ void declare(CLI::App& app, Flags& flags) {
                  "take the settings of matcher and rectification from a stereod.yaml");
   app.add_option("--disparities", flags.disparities, "how many disparities are searched, 1 to 256");
   app.add_option("--min-disparity", flags.min_disparity, "the first of them, in pixels");
-  app.add_option("--window", flags.window, "side of the support window, odd, 3 to 31 pixels");
+  app.add_option("--method", flags.method, "the matcher: block or semiglobal; default: the preset's");
+  app.add_option("--window", flags.window, "block: side of the support window, odd, 3 to 31 pixels");
+  app.add_option("--grid", flags.grid, "semiglobal: coarse, or fine for thin things");
+  app.add_option("--p1", flags.p1, "semiglobal: what a step of one disparity costs, 0 to 255");
+  app.add_option("--p2", flags.p2, "semiglobal: what a larger step costs at most, 0 to 255");
+  app.add_flag("--fill", flags.fill, "semiglobal: pixels without a match get that of a neighbour");
   app.add_option("--cost", flags.cost, "sad, ssd or mad (the last two: only --implementation naive)");
   app.add_option("--implementation", flags.implementation, "naive, sliding or simd");
   app.add_option("--isa", flags.isa, "instruction set for simd: auto, scalar, ssse3, sse41, avx2 or neon");
@@ -58,6 +64,28 @@ Value named(const std::optional<Value>& value, const std::string& name, const ch
   throw UsageError(std::string(flag) + ": '" + name + "' is not known; allowed are " + allowed);
 }
 
+void apply_method(const Flags& flags, MatcherOptions& options) {
+  if (flags.method) {
+    options.method = named(parse_method(*flags.method), *flags.method, "--method", "block, semiglobal");
+  }
+  const auto refuse = [&](bool given, const char* flag, Method owner) {
+    if (given && options.method != owner) {
+      throw UsageError(std::string(flag) + ": belongs to --method " + std::string(name_of(owner)) +
+                       "; the one chosen is " + std::string(name_of(options.method)));
+    }
+  };
+  refuse(flags.window.has_value(), "--window", Method::kBlock);
+  refuse(flags.grid.has_value(), "--grid", Method::kSemiglobal);
+  refuse(flags.p1.has_value(), "--p1", Method::kSemiglobal);
+  refuse(flags.p2.has_value(), "--p2", Method::kSemiglobal);
+  refuse(flags.fill, "--fill", Method::kSemiglobal);
+  options.window = flags.window.value_or(options.window);
+  if (flags.grid) options.grid = named(parse_grid(*flags.grid), *flags.grid, "--grid", "coarse, fine");
+  options.p1 = flags.p1.value_or(options.p1);
+  options.p2 = flags.p2.value_or(options.p2);
+  options.fill = options.fill || flags.fill;
+}
+
 MatcherOptions matcher_options(const Flags& flags, const Config& config) {
   MatcherOptions options = config.matcher;
   if (flags.preset) {
@@ -65,7 +93,7 @@ MatcherOptions matcher_options(const Flags& flags, const Config& config) {
   }
   options.disparities = flags.disparities.value_or(options.disparities);
   options.min_disparity = flags.min_disparity.value_or(options.min_disparity);
-  options.window = flags.window.value_or(options.window);
+  apply_method(flags, options);
   if (flags.cost) options.cost = named(parse_cost(*flags.cost), *flags.cost, "--cost", "sad, ssd, mad");
   if (flags.implementation) {
     options.implementation = named(parse_implementation(*flags.implementation), *flags.implementation,

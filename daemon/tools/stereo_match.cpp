@@ -91,6 +91,16 @@ void write_view(const MatchArguments& arguments, const DisparityImage& disparity
   write_png(*arguments.color, picture.view());
 }
 
+/// Who asks for filled pixels wants them in the files, which have no mark for them.
+void take_filled_for_measured(DisparityImage& disparity) {
+  for (int y = 0; y < disparity.height(); ++y) {
+    for (int x = 0; x < disparity.width(); ++x) {
+      std::int16_t& value = disparity.at(x, y);
+      if (is_filled(value)) value = filled_disparity(value);
+    }
+  }
+}
+
 void run(const MatchArguments& arguments) {
   std::optional<Calibration> calibration;
   if (arguments.calibration) calibration = read_calibration(*arguments.calibration);
@@ -108,6 +118,7 @@ void run(const MatchArguments& arguments) {
   DisparityImage disparity(pair.left.image.size());
   matcher.match(pair.left.image.view(), pair.right.image.view(), disparity.view());
 
+  if (arguments.matcher.fill) take_filled_for_measured(disparity);
   const int units = arguments.matcher.units_per_pixel();
   if (arguments.output) write_disparity(*arguments.output, disparity.view(), units);
   if (arguments.color) write_view(arguments, disparity, calibration);

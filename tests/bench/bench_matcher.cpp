@@ -48,6 +48,16 @@ class Contest {
     run_.add(kOpenCv, [=] { matcher->compute(pair.left, pair.right, *out); });
   }
 
+  void add_sgbm(const std::string& name, const MatcherCase& the_case) {
+    constexpr int kBlock = 5;
+    const cv::Ptr<cv::StereoSGBM> matcher =
+        cv::StereoSGBM::create(0, the_case.options.disparities, kBlock, 8 * kBlock * kBlock,
+                               32 * kBlock * kBlock, 0, 31, 0, 0, 0, cv::StereoSGBM::MODE_SGBM_3WAY);
+    const auto out = std::make_shared<cv::Mat>();
+    const MatPair pair = the_case.pair;
+    run_.add(name, [=] { matcher->compute(pair.left, pair.right, *out); });
+  }
+
   void add(const std::string& name, const MatcherCase& the_case, const MatcherOptions& options, int workers) {
     matchers_.push_back(std::make_unique<OwnMatcher>(the_case, options, workers));
     OwnMatcher& matcher = *matchers_.back();
@@ -132,7 +142,55 @@ void measure_modes(const MatcherCase& the_case, int rounds) {
   }
 }
 
+/// The semi-global matcher's presets; the block of StereoBM is 11×11, and its tests are off.
+void measure_semiglobal(const std::vector<MatcherCase>& cases, int rounds) {
+  constexpr const char* kSgbm = "SGBM 3WAY";
+  for (const char* preset : {"dense", "fine"}) {
+    Cells headings{kOpenCv, kSgbm};
+    for (const Isa isa : available_isas()) {
+      headings.emplace_back(name_of(isa));
+      headings.emplace_back("2 threads");
+    }
+    std::cout << "\n";
+    print_row(std::string("semi-global, ") + preset, headings);
+    cv::setNumThreads(1);
+    for (const MatcherCase& the_case : cases) {
+      Contest contest;
+      contest.add_opencv(the_case);
+      contest.add_sgbm(kSgbm, the_case);
+      MatcherOptions options = *matcher_preset(preset);
+      options.disparities = the_case.options.disparities;
+      for (const Isa isa : available_isas()) {
+        for (const int workers : {1, 2}) {
+          contest.add(std::string(name_of(isa)) + std::to_string(workers), the_case, with_isa(options, isa),
+                      workers);
+        }
+      }
+      const InterleavedResults results = contest.run(rounds);
+      Cells cells{ms(results.of(kOpenCv).best), ms(results.of(kSgbm).best)};
+      for (const Isa isa : available_isas()) {
+        const std::string name(name_of(isa));
+        cells.push_back(best_and_factor(results, name + "1"));
+        cells.push_back(times(results.of(name + "1").best / results.of(name + "2").best));
+      }
+      print_row(the_case.name, cells);
+    }
+  }
+}
+
+/// Bytes of scratch memory of a worker.
+void print_scratch() {
+  std::cout << "\nScratch memory at 640x480, 64 disparities:";
+  for (const char* preset : {"robust", "dense", "fine", "fast"}) {
+    const auto matcher = make_band_matcher(*matcher_preset(preset), {640, 480});
+    std::cout << " " << preset << " " << matcher->scratch_bytes() / 1024 << " KiB";
+  }
+  std::cout << "\n";
+}
+
 void measure(int rounds) {
+  measure_semiglobal(semiglobal_cases(), rounds);
+  print_scratch();
   const std::vector<MatcherCase> cases = speed_cases();
   if (cases.empty()) return;
   for (const int workers : {1, 2}) measure_against_opencv(cases, workers, rounds);

@@ -76,6 +76,16 @@ std::vector<MatcherCase> speed_cases() {
   return list.take();
 }
 
+std::vector<MatcherCase> semiglobal_cases() {
+  CaseList list;
+  list.add("640x480 d64", aloe({640, 480}), plain(64, 11));
+  list.add("640x480 d128", aloe({640, 480}), plain(128, 11));
+  list.add("1280x720 d128", aloe({1280, 720}), plain(128, 11));
+  list.add("384x288 d64", load_tsukuba(), plain(64, 11));
+  list.add("320x240 d48", aloe({320, 240}), plain(48, 11));
+  return list.take();
+}
+
 std::vector<MatcherCase> odd_cases() {
   const std::optional<MatPair> vga = aloe({640, 480});
   CaseList list;

@@ -19,6 +19,9 @@ struct MatcherCase {
 /// Those of which the pictures are here; says on standard error which are not.
 std::vector<MatcherCase> speed_cases();
 
+/// Sizes and disparities for the semi-global matcher; OpenCV's StereoBM is to take them with a window of 11.
+std::vector<MatcherCase> semiglobal_cases();
+
 /// Variations of one setting, whose times are to be near each other: odd numbers of disparities, wider
 /// windows. The first is the setting itself.
 std::vector<MatcherCase> odd_cases();

@@ -1,5 +1,6 @@
 #include "tests/bench/quality_matchers.h"
 
+#include <algorithm>
 #include <opencv2/calib3d.hpp>
 
 #include "core/match/frame_matcher.h"
@@ -28,6 +29,13 @@ std::string in_words(const MatcherOptions& o) {
   const auto number = [](const char* name, int value) {
     return ", " + std::string(name) + " " + std::to_string(value);
   };
+  if (o.method == Method::kSemiglobal) {
+    return "semi-global, grid " + std::string(name_of(o.grid)) + number("p1", o.p1) + number("p2", o.p2) +
+           number("census_weight", o.census_weight) + number("gradient_limit", o.gradient_limit) +
+           number("prefilter_cap", o.prefilter_cap) + number("uniqueness_ratio", o.uniqueness_ratio) +
+           number("left_right_max_diff", o.left_right_max_diff) + number("median", o.median) +
+           number("speckle_size", o.speckle_size) + (o.fill ? ", filled" : "");
+  }
   return "window " + std::to_string(o.window) + ", prefilter " + std::string(name_of(o.prefilter)) +
          (o.prefilter == Prefilter::kNone ? "" : number("prefilter_cap", o.prefilter_cap)) +
          number("texture_threshold", o.texture_threshold) + number("uniqueness_ratio", o.uniqueness_ratio) +
@@ -70,6 +78,27 @@ QualityMatcher opencv_sgbm_3way() {
           }};
 }
 
+QualityMatcher opencv_sgbm_padded(int uniqueness_ratio) {
+  constexpr int kBlock = 5, kCap = 31;
+  return {"SGBM 3WAY u" + std::to_string(uniqueness_ratio),
+          "OpenCV StereoSGBM 3WAY, block 5, P1 200, P2 800, cap 31, uniqueness " +
+              std::to_string(uniqueness_ratio) + ", padded at the left",
+          kSubpixelUnits, [=](const StereoSet& set, int disparities) {
+            const cv::Ptr<cv::StereoSGBM> sgbm =
+                cv::StereoSGBM::create(0, disparities, kBlock, 8 * kBlock * kBlock, 32 * kBlock * kBlock, 0,
+                                       kCap, uniqueness_ratio, 0, 0, cv::StereoSGBM::MODE_SGBM_3WAY);
+            StereoSet padded{set.name, {}, {}, {}, disparities};
+            cv::copyMakeBorder(set.left, padded.left, 0, 0, disparities, 0, cv::BORDER_REPLICATE);
+            cv::copyMakeBorder(set.right, padded.right, 0, 0, disparities, 0, cv::BORDER_REPLICATE);
+            const DisparityImage wide = compute(*sgbm, padded);
+            DisparityImage found(view_of(set.left).size());
+            for (int y = 0; y < found.height(); ++y) {
+              std::copy_n(wide.row(y) + disparities, found.width(), found.row(y));
+            }
+            return found;
+          }};
+}
+
 QualityMatcher own_matcher(const std::string& name, const MatcherOptions& options) {
   return {
       name, in_words(options), options.units_per_pixel(), [options](const StereoSet& set, int disparities) {
@@ -78,6 +107,12 @@ QualityMatcher own_matcher(const std::string& name, const MatcherOptions& option
         WorkerPool pool(1);
         DisparityImage found(view_of(set.left).size());
         FrameMatcher(adapted, found.size(), pool).match(view_of(set.left), view_of(set.right), found.view());
+        for (int y = 0; y < found.height(); ++y) {
+          for (int x = 0; x < found.width(); ++x) {
+            std::int16_t& value = found.at(x, y);
+            if (is_filled(value)) value = filled_disparity(value);
+          }
+        }
         return found;
       }};
 }

@@ -25,6 +25,11 @@ QualityMatcher opencv_bm_without_tests();
 /// StereoSGBM in its 3WAY mode, 5×5.
 QualityMatcher opencv_sgbm_3way();
 
+/// StereoSGBM 3WAY with a prefilter cap of 31 and pictures that are wider at the left by the disparities
+/// searched, so that it can answer in every column.
+QualityMatcher opencv_sgbm_padded(int uniqueness_ratio);
+
+/// Filled pixels count as matched: who sets `fill` asks for them.
 QualityMatcher own_matcher(const std::string& name, const MatcherOptions& options);
 
 }  // namespace stereod::bench

@@ -64,6 +64,47 @@ const std::vector<BadOption>& bad_options() {
          o.cost = Cost::kSsd;
          o.implementation = Implementation::kSliding;
        }},
+      {"p1", "-1", {"0", "255"}, [](auto& o) { o.p1 = -1; }},
+      {"p2", "256", {"0", "255"}, [](auto& o) { o.p2 = 256; }},
+      {"census_weight", "17", {"0", "16"}, [](auto& o) { o.census_weight = 17; }},
+      {"gradient_limit", "127", {"0", "126"}, [](auto& o) { o.gradient_limit = 127; }},
+      {"fill", "true", {"semiglobal"}, [](auto& o) { o.fill = true; }},
+      {"cost",
+       "ssd",
+       {"semiglobal", "block"},
+       [](auto& o) {
+         o.method = Method::kSemiglobal;
+         o.cost = Cost::kSsd;
+         o.implementation = Implementation::kNaive;
+       }},
+      {"prefilter",
+       "none",
+       {"semiglobal", "xsobel"},
+       [](auto& o) {
+         o.method = Method::kSemiglobal;
+         o.prefilter = Prefilter::kNone;
+       }},
+      {"texture_threshold",
+       "7",
+       {"semiglobal", "block"},
+       [](auto& o) {
+         o.method = Method::kSemiglobal;
+         o.texture_threshold = 7;
+       }},
+      {"median",
+       "5",
+       {"semiglobal", "3"},
+       [](auto& o) {
+         o.method = Method::kSemiglobal;
+         o.median = 5;
+       }},
+      {"implementation",
+       "sliding",
+       {"semiglobal", "naive", "simd"},
+       [](auto& o) {
+         o.method = Method::kSemiglobal;
+         o.implementation = Implementation::kSliding;
+       }},
       {"cost", "mad", {"simd", "naive"}, [](auto& o) { o.cost = Cost::kMad; }},
   };
   return all;
@@ -107,6 +148,10 @@ TEST(MatcherOptions, EndsOfEveryRangeAreFine) {
       [](auto& o) { o.median = 5; },
       [](auto& o) { o.speckle_size = 1; },
       [](auto& o) { o.speckle_max_diff = 0; },
+      [](auto& o) { o.p1 = 0; },
+      [](auto& o) { o.p2 = 255; },
+      [](auto& o) { o.census_weight = 16; },
+      [](auto& o) { o.gradient_limit = 126; },
       [](auto& o) {
         o.cost = Cost::kMad;
         o.implementation = Implementation::kNaive;
@@ -131,6 +176,8 @@ void expect_names_come_back(const std::vector<Enum>& values, Parse&& parse) {
 }
 
 TEST(MatcherOptions, NamesComeBackAsTheValuesTheyName) {
+  expect_names_come_back<Method>({Method::kBlock, Method::kSemiglobal}, parse_method);
+  expect_names_come_back<Grid>({Grid::kCoarse, Grid::kFine}, parse_grid);
   using enum Implementation;
   using enum Isa;
   using enum Prefilter;
@@ -152,9 +199,19 @@ TEST(MatcherOptions, EveryPresetThatIsListedExistsAndIsFine) {
     ASSERT_TRUE(options.has_value()) << name;
     EXPECT_EQ(problem_with(*options), std::nullopt) << name;
   }
-  EXPECT_EQ(presets, 3);
+  EXPECT_EQ(presets, 5);
   EXPECT_EQ(matcher_preset("best"), std::nullopt);
   EXPECT_EQ(matcher_preset(""), std::nullopt);
+}
+
+TEST(MatcherOptions, OnlyTheDensePresetFills) {
+  for (const char* name : {"thesis", "fast", "robust", "fine"}) {
+    EXPECT_FALSE(matcher_preset(name)->fill) << name;
+  }
+  MatcherOptions dense = matcher_preset("dense").value();
+  EXPECT_TRUE(dense.fill);
+  dense.fill = false;
+  EXPECT_EQ(dense, matcher_preset("robust"));
 }
 
 TEST(MatcherOptions, ThesisPresetIsTheThesisMatcher) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <fstream>
 #include <numbers>
 #include <regex>
@@ -41,6 +43,21 @@ TEST_F(ConfigFile, TheLeastThatIsNeededGivesTheDefaults) {
   EXPECT_EQ(config.matcher.uniqueness_ratio, matcher_preset("robust")->uniqueness_ratio);
   EXPECT_EQ(config.lcm.prefix, "STEREO");
   EXPECT_GE(config.worker_count(), 1);
+}
+
+TEST_F(ConfigFile, EveryKeyOfTheSemiglobalMatcherIsRead) {
+  const MatcherOptions options = read(R"(
+cameras: {source: synthetic}
+matcher: {preset: fast, method: semiglobal, grid: fine, p1: 7, p2: 56, census_weight: 3, gradient_limit: 18, fill: true}
+)")
+                                     .matcher;
+  EXPECT_EQ(options.method, Method::kSemiglobal);
+  EXPECT_EQ(options.grid, Grid::kFine);
+  EXPECT_EQ(options.p1, 7);
+  EXPECT_EQ(options.p2, 56);
+  EXPECT_EQ(options.census_weight, 3);
+  EXPECT_EQ(options.gradient_limit, 18);
+  EXPECT_TRUE(options.fill);
 }
 
 TEST_F(ConfigFile, EveryKeyIsRead) {
@@ -250,12 +267,24 @@ INSTANTIATE_TEST_SUITE_P(
             "stereod.yaml:3: matcher.disparities: found '6.5', allowed are whole numbers from 1 to 256"},
         BadConfig{"cameras: {source: synthetic}\nmatcher:\n  disparities: [1, 2]\n",
                   "stereod.yaml:3: matcher.disparities: found a list, allowed is one value"},
-        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  window: 10\n",
-                  "stereod.yaml:3: matcher.window: found 10, allowed are odd numbers from 3 to 31"},
-        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  median: 4\n",
-                  "stereod.yaml:3: matcher.median: median is 4, allowed are 0 (off), 3 and 5"},
-        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  preset: quick\n",
-                  "stereod.yaml:3: matcher.preset: found 'quick', allowed are thesis, fast, robust"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  preset: fast\n  window: 10\n",
+                  "stereod.yaml:4: matcher.window: found 10, allowed are odd numbers from 3 to 31"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  preset: fast\n  median: 4\n",
+                  "stereod.yaml:4: matcher.median: median is 4, allowed are 0 (off), 3 and 5"},
+        BadConfig{
+            "cameras: {source: synthetic}\nmatcher:\n  preset: quick\n",
+            "stereod.yaml:3: matcher.preset: found 'quick', allowed are thesis, fast, robust, dense, fine"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  window: 9\n",
+                  "stereod.yaml:3: matcher.window: belongs to method: block, which is not the one chosen"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  preset: fast\n  p2: 9\n",
+                  "stereod.yaml:4: matcher.p2: belongs to method: semiglobal, which is not the one chosen"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  method: census\n",
+                  "stereod.yaml:3: matcher.method: found 'census', allowed are block and semiglobal"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  p1: 256\n",
+                  "stereod.yaml:3: matcher.p1: found '256', allowed are whole numbers from 0 to 255"},
+        BadConfig{"cameras: {source: synthetic}\nmatcher:\n  median: 5\n",
+                  "stereod.yaml:3: matcher.median: median is 5 but method is semiglobal; it has a median of "
+                  "3 or none (0)"},
         BadConfig{"cameras: {source: synthetic}\nmatcher:\n  subpixel: maybe\n",
                   "stereod.yaml:3: matcher.subpixel: found 'maybe', allowed are true and false"},
         BadConfig{"cameras:\n  source: v4l2\n  v4l2: {left: //dev/video0, right: /dev/./video0}\n",
@@ -345,6 +374,7 @@ TEST_F(ConfigFile, MissingFileAndFolderAreToldApart) {
 TEST_F(ConfigFile, TheShippedFileSaysTheDefaults) {
   std::ifstream in(std::string(STEREOD_SOURCE_DIR) + "/etc/stereod.yaml");
   std::string uncommented;
+  std::string block_keys;
   int matcher_keys = 0;
   for (std::string line; std::getline(in, line);) {
     static const std::regex kCommentedKey("  # ([a-z_]+: [a-z0-9-]+)");
@@ -353,9 +383,14 @@ TEST_F(ConfigFile, TheShippedFileSaysTheDefaults) {
       line = "  " + match[1].str();
       ++matcher_keys;
     }
+    static const std::regex kBlockKey("  # ([a-z_]+: [a-z0-9-]+)  # block");
+    if (std::regex_match(line, match, kBlockKey)) block_keys += "  " + match[1].str() + "\n";
     uncommented += line + "\n";
   }
-  EXPECT_EQ(matcher_keys, 14);
+  EXPECT_EQ(matcher_keys, 15);
+  EXPECT_EQ(std::count(block_keys.begin(), block_keys.end(), '\n'), 4);
+  EXPECT_EQ(read("cameras: {source: synthetic}\nmatcher:\n  preset: fast\n" + block_keys).matcher,
+            matcher_preset("fast"));
   const Config defaults;
   const Config shipped = read(uncommented);
   EXPECT_EQ(shipped.cameras.fps, defaults.cameras.fps);

@@ -252,7 +252,7 @@ TEST_F(StereoMatch, RefusesWrongUsage) {
   expect_refused(match_pair({"--repeat", "0"}), {"--repeat: is 0; 1 to 1000000 is allowed"});
   expect_refused(match_pair({"--repeat", "1", "--threads", "0"}), {"--threads: is 0; 1 to 256 is allowed"});
   expect_refused(match_pair({"--repeat", "1", "--preset", "best"}),
-                 {"--preset: 'best'", "thesis, fast, robust"});
+                 {"--preset: 'best'", "thesis, fast, robust, dense, fine"});
   expect_refused(match_pair({"--repeat", "1", "--cost", "ncc"}), {"--cost: 'ncc'", "sad, ssd, mad"});
   expect_refused(match_pair({"--repeat", "1", "--isa", "mmx"}), {"--isa: 'mmx'", "avx2"});
   expect_refused(match_pair({"--repeat", "1", "--implementation", "gpu"}),
@@ -266,12 +266,16 @@ TEST_F(StereoMatch, RefusesImpossibleMatcherSettings) {
     arguments.insert(arguments.end(), {"--repeat", "1"});
     expect_refused(match_pair(arguments), parts);
   };
-  refused({"--window", "4"}, {"window", "4"});
-  refused({"--window", "33"}, {"window", "33"});
+  refused({"--method", "block", "--window", "4"}, {"window", "4"});
+  refused({"--method", "block", "--window", "33"}, {"window", "33"});
   refused({"--disparities", "0"}, {"disparities", "0"});
   refused({"--disparities", "257"}, {"disparities", "257"});
   refused({"--min-disparity", "-1"}, {"min_disparity", "-1"});
-  refused({"--cost", "ssd", "--implementation", "simd"}, {"cost"});
+  refused({"--method", "block", "--cost", "ssd", "--implementation", "simd"}, {"cost"});
+  refused({"--window", "9"}, {"--window", "--method block", "semiglobal"});
+  refused({"--preset", "fast", "--p2", "9"}, {"--p2", "--method semiglobal", "block"});
+  refused({"--preset", "fast", "--fill"}, {"--fill", "--method semiglobal"});
+  refused({"--method", "census"}, {"--method: 'census'", "block, semiglobal"});
 }
 
 TEST_F(StereoMatch, RefusesBadPictures) {

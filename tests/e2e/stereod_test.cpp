@@ -126,7 +126,8 @@ INSTANTIATE_TEST_SUITE_P(
     E2e, StereodRows,
     testing::Values(
         Setting{"thesis", "{preset: thesis, disparities: 48}", {"--preset", "thesis", "--disparities", "48"}},
-        Setting{"robust", "{preset: robust, disparities: 64}", {"--preset", "robust"}}),
+        Setting{"robust", "{preset: robust, disparities: 64}", {"--preset", "robust"}},
+        Setting{"fine", "{preset: fine, disparities: 50}", {"--preset", "fine", "--disparities", "50"}}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST_F(StereodTest, PlaysARecordingOnceAndEnds) {

@@ -35,6 +35,19 @@ class Bytes {
   std::size_t at_ = 0;
 };
 
+void make_semiglobal(Bytes& bytes, MatcherOptions& o) {
+  o.method = Method::kSemiglobal;
+  o.prefilter = Prefilter::kXsobel;
+  o.texture_threshold = 0;
+  o.median = o.median == 0 ? 0 : 3;
+  o.grid = bytes.byte() % 2 == 0 ? Grid::kCoarse : Grid::kFine;
+  o.p1 = bytes.byte();
+  o.p2 = bytes.byte();
+  o.census_weight = bytes.byte() % 17;
+  o.gradient_limit = bytes.byte() % 127;
+  o.fill = bytes.byte() % 2 != 0;
+}
+
 MatcherOptions options_of(Bytes& bytes) {
   MatcherOptions o;
   o.min_disparity = bytes.byte() % 8 == 7 ? bytes.between(0, 1024) : bytes.byte() % 24;
@@ -51,6 +64,7 @@ MatcherOptions options_of(Bytes& bytes) {
   o.median = kMedians[static_cast<std::size_t>(bytes.byte()) % kMedians.size()];
   o.speckle_size = bytes.off_or_up_to(400);
   o.speckle_max_diff = bytes.byte() % 4 == 0 ? bytes.byte() : bytes.byte() % 3;
+  if (bytes.byte() % 2 != 0) make_semiglobal(bytes, o);
   return o;
 }
 
@@ -131,6 +145,7 @@ DisparityImage match_bands(const MatcherInput& input, const MatcherOptions& opti
 std::vector<MatcherOptions> contestants(const MatcherOptions& options) {
   std::vector<MatcherOptions> all;
   for (const Implementation implementation : {Implementation::kNaive, Implementation::kSliding}) {
+    if (implementation == Implementation::kSliding && options.method == Method::kSemiglobal) continue;
     all.push_back(options);
     all.back().implementation = implementation;
   }
@@ -166,7 +181,12 @@ std::optional<MatcherInput> matcher_input(std::span<const std::uint8_t> data) {
   const double columns = std::max(0, size.width - window + 1);
   const double rows = std::max(0, size.height - window + 1);
   const double disparities = std::min<double>(input.options.disparities, columns);
-  if (columns * rows * disparities * window * window > kMostWork) return std::nullopt;
+  // The semi-global definition does about so much for every pixel and disparity.
+  constexpr double kSemiglobalWork = 20;
+  const double work = input.options.method == Method::kBlock
+                          ? columns * rows * disparities * window * window
+                          : kSemiglobalWork * size.width * size.height * input.options.disparities;
+  if (work > kMostWork) return std::nullopt;
   for (int row = 0; row < size.height - 1;) {
     row += 1 + bytes.byte() % kMostRows;
     if (row < size.height) input.cuts.push_back(row);

@@ -42,6 +42,8 @@ TEST(MatcherFuzzReplay, BytesReachEveryOption) {
   int wide = 0;
   int masks = 0;
   int surfaces = 0;
+  int semiglobal = 0;
+  int filled = 0;
   constexpr int kInputs = 300;
   for (std::uint64_t seed = 1; seed <= kInputs; ++seed) {
     const std::optional<MatcherInput> input = matcher_input(made_up_bytes(seed));
@@ -51,9 +53,12 @@ TEST(MatcherFuzzReplay, BytesReachEveryOption) {
     speckles += input->options.speckle_size > 0;
     wide += input->options.window >= 17;
     masks += input->left_mask.has_value();
+    semiglobal += input->options.method == Method::kSemiglobal;
+    filled += input->options.fill;
     surfaces += input->pair.left.width() >= input->options.window && input->options.min_disparity == 0;
   }
-  for (const int count : {prefilters, medians, speckles, wide, masks}) EXPECT_GT(count, kInputs / 8);
+  for (const int count : {prefilters, medians, speckles, wide, masks, semiglobal, filled})
+    EXPECT_GT(count, kInputs / 8);
   EXPECT_GT(surfaces, 3);
 }
 

@@ -83,6 +83,10 @@ std::vector<MatcherOptions> implementations_of(const MatcherOptions& options) {
   };
   add(Implementation::kNaive, Isa::kAuto);
   if (options.cost != Cost::kSad) return all;  // the others know only this one
+  if (options.method == Method::kSemiglobal) {
+    for (const Isa isa : isas_that_run()) add(Implementation::kSimd, isa);
+    return all;
+  }
   add(Implementation::kSliding, Isa::kAuto);
   for (const Isa isa : isas_that_run()) {
     for (const CacheUse cache : {CacheUse::kLarge, CacheUse::kSmall}) {
@@ -95,12 +99,14 @@ std::vector<MatcherOptions> implementations_of(const MatcherOptions& options) {
 
 std::string describe(const MatcherOptions& o) {
   std::ostringstream text;
-  text << name_of(o.implementation) << "/" << name_of(o.isa) << "/" << name_of(o.cache)
-       << " cost=" << name_of(o.cost) << " min_disparity=" << o.min_disparity
+  text << name_of(o.method) << " " << name_of(o.implementation) << "/" << name_of(o.isa) << "/"
+       << name_of(o.cache) << " cost=" << name_of(o.cost) << " min_disparity=" << o.min_disparity
        << " disparities=" << o.disparities << " window=" << o.window << " prefilter=" << name_of(o.prefilter)
        << " prefilter_cap=" << o.prefilter_cap << " subpixel=" << o.subpixel
        << " texture_threshold=" << o.texture_threshold << " uniqueness_ratio=" << o.uniqueness_ratio
        << " left_right_max_diff=" << o.left_right_max_diff << " median=" << o.median
+       << " grid=" << name_of(o.grid) << " p1=" << o.p1 << " p2=" << o.p2
+       << " census_weight=" << o.census_weight << " gradient_limit=" << o.gradient_limit << " fill=" << o.fill
        << " speckle_size=" << o.speckle_size << " speckle_max_diff=" << o.speckle_max_diff;
   return text.str();
 }

@@ -175,6 +175,13 @@ DisparityImage oracle_median(const DisparityImage& disparities, int side) {
   return result;
 }
 
+namespace {
+
+/// Measured or filled in.
+int disparity_of(std::int16_t value) { return value < -1 ? -2 - value : value; }
+
+}  // namespace
+
 DisparityImage oracle_speckle(const DisparityImage& disparities, int speckle_size,
                               int max_difference_in_units) {
   using Point = std::pair<int, int>;
@@ -195,7 +202,9 @@ DisparityImage oracle_speckle(const DisparityImage& disparities, int speckle_siz
         for (const auto& [qx, qy] : neighbours) {
           if (qx < 0 || qx >= width || qy < 0 || qy >= height || visited.at(qx, qy)) continue;
           if (disparities.at(qx, qy) == kInvalidDisparity) continue;
-          if (std::abs(disparities.at(px, py) - disparities.at(qx, qy)) > max_difference_in_units) continue;
+          const int step =
+              std::abs(disparity_of(disparities.at(px, py)) - disparity_of(disparities.at(qx, qy)));
+          if (step > max_difference_in_units) continue;
           visited.at(qx, qy) = 1;
           region.emplace_back(qx, qy);
         }

@@ -20,6 +20,13 @@ struct BytesX86 {
     store(out, _mm_unpacklo_epi8(x, y));
     store(out + 16, _mm_unpackhi_epi8(x, y));
   }
+  static void split32(const std::uint8_t* in, std::uint8_t* even, std::uint8_t* odd) {
+    const __m128i low = _mm_set1_epi16(0xFF);
+    const __m128i a = load(in);
+    const __m128i b = load(in + 16);
+    store(even, _mm_packus_epi16(_mm_and_si128(a, low), _mm_and_si128(b, low)));
+    store(odd, _mm_packus_epi16(_mm_srli_epi16(a, 8), _mm_srli_epi16(b, 8)));
+  }
 
  private:
   static __m128i load(const std::uint8_t* p) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }

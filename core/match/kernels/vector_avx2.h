@@ -103,6 +103,46 @@ struct VectorAvx2 : BytesX86<2> {
                         _mm256_min_epu8(_mm256_packus_epi16(lower, upper), most));
   }
 
+  static void store(void* p, Reg a) { _mm256_storeu_si256(static_cast<__m256i*>(p), a); }
+  static Reg bit_or(Reg a, Reg b) { return _mm256_or_si256(a, b); }
+  static Reg min8(Reg a, Reg b) { return _mm256_min_epu8(a, b); }
+  static Reg add8(Reg a, Reg b) { return _mm256_add_epi8(a, b); }
+  static Reg sub8(Reg a, Reg b) { return _mm256_sub_epi8(a, b); }
+  static Reg add8_saturated(Reg a, Reg b) { return _mm256_adds_epu8(a, b); }
+  static Reg average8(Reg a, Reg b) { return _mm256_avg_epu8(a, b); }
+  static Reg at_most8(Reg a, Reg b) { return _mm256_cmpeq_epi8(_mm256_min_epu8(a, b), a); }
+  static Reg load_table(const std::uint8_t* p) {
+    return _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(p)));
+  }
+  static Reg look_up(Reg table, Reg indices) { return _mm256_shuffle_epi8(table, indices); }
+  static Reg raise_lanes(Reg a) {
+    return _mm256_alignr_epi8(a, _mm256_permute2x128_si256(a, _mm256_set1_epi8(-1), 0x02), 15);
+  }
+  static Reg lower_lanes(Reg a) {
+    return _mm256_alignr_epi8(_mm256_permute2x128_si256(a, _mm256_set1_epi8(-1), 0x21), a, 1);
+  }
+
+  // The lesser of two bytes as 16 bits.
+  static Reg least8(Reg a) {
+    const __m128i bytes = _mm_min_epu8(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
+    return _mm256_broadcastb_epi8(_mm_minpos_epu16(_mm_min_epu8(bytes, _mm_srli_epi16(bytes, 8))));
+  }
+  static void least8(Reg a, Reg b, Reg& least_a, Reg& least_b) {
+    least_a = least8(a);
+    least_b = least8(b);
+  }
+
+  static std::uint32_t winner8(Reg a) {
+    const Reg places = _mm256_setr_epi8(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19,
+                                        20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31);
+    return least_lane(_mm256_min_epu16(_mm256_unpacklo_epi8(places, a), _mm256_unpackhi_epi8(places, a))) &
+           0xFFFF;
+  }
+
+  static int count8(Reg mask) {
+    return __builtin_popcount(static_cast<unsigned>(_mm256_movemask_epi8(mask)));
+  }
+
  private:
   // From pairs of bytes, raised by the cap; packing will clip what is below 0.
   static Reg gradient(Reg right, Reg left, Reg below, int cap) {

@@ -107,7 +107,64 @@ struct VectorNeon {
     vst1q_u8(out, vminq_u8(positive, vdupq_n_u8(static_cast<std::uint8_t>(2 * cap))));
   }
 
+  static void store(void* p, Reg a) { vst1q_u8(static_cast<std::uint8_t*>(p), bytes(a)); }
+  static Reg bit_or(Reg a, Reg b) { return vorrq_u16(a, b); }
+  static Reg min8(Reg a, Reg b) { return of(vminq_u8(bytes(a), bytes(b))); }
+  static Reg add8(Reg a, Reg b) { return of(vaddq_u8(bytes(a), bytes(b))); }
+  static Reg sub8(Reg a, Reg b) { return of(vsubq_u8(bytes(a), bytes(b))); }
+  static Reg add8_saturated(Reg a, Reg b) { return of(vqaddq_u8(bytes(a), bytes(b))); }
+  static Reg average8(Reg a, Reg b) { return of(vrhaddq_u8(bytes(a), bytes(b))); }
+  static Reg at_most8(Reg a, Reg b) { return of(vcleq_u8(bytes(a), bytes(b))); }
+  static Reg load_table(const std::uint8_t* p) { return load(p); }
+  static Reg look_up(Reg table, Reg indices) {
+#if defined(__aarch64__)
+    return of(vqtbl1q_u8(bytes(table), bytes(indices)));
+#else
+    const uint8x8x2_t halves = {{vget_low_u8(bytes(table)), vget_high_u8(bytes(table))}};
+    return of(vcombine_u8(vtbl2_u8(halves, vget_low_u8(bytes(indices))),
+                          vtbl2_u8(halves, vget_high_u8(bytes(indices)))));
+#endif
+  }
+  static Reg raise_lanes(Reg a) { return of(vextq_u8(vdupq_n_u8(255), bytes(a), 15)); }
+  static Reg lower_lanes(Reg a) { return of(vextq_u8(bytes(a), vdupq_n_u8(255), 1)); }
+
+  static void least8(Reg a, Reg b, Reg& least_a, Reg& least_b) {
+    least_a = of(vdupq_n_u8(least_byte(bytes(a))));
+    least_b = of(vdupq_n_u8(least_byte(bytes(b))));
+  }
+  static std::uint32_t winner8(Reg a) {
+    const std::uint8_t least = least_byte(bytes(a));
+    const uint8x16_t equal = vceqq_u8(bytes(a), vdupq_n_u8(least));
+    // Four bits for each lane.
+    const uint8x8_t packed = vshrn_n_u16(vreinterpretq_u16_u8(equal), 4);
+    const std::uint64_t mask = vget_lane_u64(vreinterpret_u64_u8(packed), 0);
+    return static_cast<std::uint32_t>(least) << 8 | static_cast<std::uint32_t>(__builtin_ctzll(mask) / 4);
+  }
+  static int count8(Reg mask) {
+    const uint64x2_t sums = vpaddlq_u32(vpaddlq_u16(vpaddlq_u8(vandq_u8(bytes(mask), vdupq_n_u8(1)))));
+    return static_cast<int>(vgetq_lane_u64(sums, 0) + vgetq_lane_u64(sums, 1));
+  }
+  static void split32(const std::uint8_t* in, std::uint8_t* even, std::uint8_t* odd) {
+    const uint8x16x2_t pair = vld2q_u8(in);
+    vst1q_u8(even, pair.val[0]);
+    vst1q_u8(odd, pair.val[1]);
+  }
+
  private:
+  static Reg of(uint8x16_t a) { return vreinterpretq_u16_u8(a); }
+
+  static std::uint8_t least_byte(uint8x16_t a) {
+#if defined(__aarch64__)
+    return vminvq_u8(a);
+#else
+    uint8x8_t least = vpmin_u8(vget_low_u8(a), vget_high_u8(a));
+    least = vpmin_u8(least, least);
+    least = vpmin_u8(least, least);
+    least = vpmin_u8(least, least);
+    return vget_lane_u8(least, 0);
+#endif
+  }
+
   // Of eight pixels, raised by the cap.
   static int16x8_t gradient(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below,
                             int cap) {

@@ -137,6 +137,91 @@ struct VectorScalar {
     }
   }
 
+  // --- lanes of bytes, for the semi-global kernel
+
+  static void store(void* p, Reg a) { std::memcpy(p, &a, sizeof(a)); }
+  static Reg bit_or(Reg a, Reg b) { return a | b; }
+  static Reg min8(Reg a, Reg b) {
+    const auto x = reinterpret_cast<Bytes>(a);
+    const auto y = reinterpret_cast<Bytes>(b);
+    return reinterpret_cast<Reg>(x < y ? x : y);
+  }
+  /// Modulo 256; the second never has a borrow here.
+  static Reg add8(Reg a, Reg b) {
+    return reinterpret_cast<Reg>(reinterpret_cast<Bytes>(a) + reinterpret_cast<Bytes>(b));
+  }
+  static Reg sub8(Reg a, Reg b) {
+    return reinterpret_cast<Reg>(reinterpret_cast<Bytes>(a) - reinterpret_cast<Bytes>(b));
+  }
+  /// The sum, at most 255.
+  static Reg add8_saturated(Reg a, Reg b) {
+    const auto x = reinterpret_cast<Bytes>(a);
+    const Bytes sum = x + reinterpret_cast<Bytes>(b);
+    return reinterpret_cast<Reg>(sum < x ? Bytes{} + std::uint8_t{255} : sum);
+  }
+  /// (a + b + 1) / 2.
+  static Reg average8(Reg a, Reg b) {
+    const auto x = reinterpret_cast<Bytes>(a);
+    const auto y = reinterpret_cast<Bytes>(b);
+    return reinterpret_cast<Reg>((x | y) - ((x ^ y) >> 1));
+  }
+  /// All bits where a ≤ b.
+  static Reg at_most8(Reg a, Reg b) {
+    return reinterpret_cast<Reg>(reinterpret_cast<Bytes>(a) <= reinterpret_cast<Bytes>(b));
+  }
+  /// A table of 16 bytes, and its entries at the places that the indices say; 0 for indices from 128 on.
+  /// Indices are below 16, or 128.
+  static Reg load_table(const std::uint8_t* p) { return load(p); }
+  static Reg look_up(Reg table, Reg indices) {
+    const auto entries = reinterpret_cast<Bytes>(table);
+    const auto places = reinterpret_cast<Bytes>(indices);
+    Bytes found{};
+    for (int i = 0; i < 16; ++i) found[i] = places[i] < 16 ? entries[places[i]] : std::uint8_t{0};
+    return reinterpret_cast<Reg>(found);
+  }
+  /// Lane i becomes lane i − 1 or i + 1; what comes in at the end is 255.
+  static Reg raise_lanes(Reg a) {
+    std::uint8_t bytes[17];
+    bytes[0] = 255;
+    std::memcpy(bytes + 1, &a, sizeof(a));
+    return load(bytes);
+  }
+  static Reg lower_lanes(Reg a) {
+    std::uint8_t bytes[17];
+    std::memcpy(bytes, &a, sizeof(a));
+    bytes[16] = 255;
+    return load(bytes + 1);
+  }
+  /// In all lanes the least one of each.
+  static void least8(Reg a, Reg b, Reg& least_a, Reg& least_b) {
+    least_a = broadcast8(static_cast<std::uint8_t>(winner8(a) >> 8));
+    least_b = broadcast8(static_cast<std::uint8_t>(winner8(b) >> 8));
+  }
+  /// 256 times the least lane, plus the first place it has.
+  static std::uint32_t winner8(Reg a) {
+    const auto bytes = reinterpret_cast<Bytes>(a);
+    std::uint32_t least = 0xFFFF;
+    for (std::uint32_t i = 0; i < 16; ++i) {
+      const std::uint32_t candidate = static_cast<std::uint32_t>(bytes[i]) << 8 | i;
+      least = candidate < least ? candidate : least;
+    }
+    return least;
+  }
+  /// How many lanes have all bits; the others have none.
+  static int count8(Reg mask) {
+    const auto bytes = reinterpret_cast<Bytes>(mask);
+    int count = 0;
+    for (int i = 0; i < 16; ++i) count += bytes[i] & 1;
+    return count;
+  }
+  /// 32 bytes, the even and the odd ones.
+  static void split32(const std::uint8_t* in, std::uint8_t* even, std::uint8_t* odd) {
+    for (int i = 0; i < 16; ++i) {
+      even[i] = in[2 * i];
+      odd[i] = in[2 * i + 1];
+    }
+  }
+
  private:
   // Eight bytes of a vector, from byte `from` on, as 16 bits with the sign their type has.
   template <typename Wide, typename Narrow>

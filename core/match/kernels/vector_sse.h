@@ -112,6 +112,54 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_min_epu8(_mm_packus_epi16(lower, upper), most));
   }
 
+  static void store(void* p, Reg a) { _mm_storeu_si128(static_cast<__m128i*>(p), a); }
+  static Reg bit_or(Reg a, Reg b) { return _mm_or_si128(a, b); }
+  static Reg min8(Reg a, Reg b) { return _mm_min_epu8(a, b); }
+  static Reg add8(Reg a, Reg b) { return _mm_add_epi8(a, b); }
+  static Reg sub8(Reg a, Reg b) { return _mm_sub_epi8(a, b); }
+  static Reg add8_saturated(Reg a, Reg b) { return _mm_adds_epu8(a, b); }
+  static Reg average8(Reg a, Reg b) { return _mm_avg_epu8(a, b); }
+  static Reg at_most8(Reg a, Reg b) { return _mm_cmpeq_epi8(_mm_min_epu8(a, b), a); }
+  static Reg load_table(const std::uint8_t* p) { return load_aligned(p); }
+  static Reg look_up(Reg table, Reg indices) { return _mm_shuffle_epi8(table, indices); }
+  static Reg raise_lanes(Reg a) { return _mm_alignr_epi8(a, _mm_set1_epi8(-1), 15); }
+  static Reg lower_lanes(Reg a) { return _mm_alignr_epi8(_mm_set1_epi8(-1), a, 1); }
+
+  static void least8(Reg a, Reg b, Reg& least_a, Reg& least_b) {
+#if defined(__SSE4_1__)
+    if constexpr (kSse41) {  // the lesser of two bytes as 16 bits
+      const Reg pairs_a = _mm_minpos_epu16(_mm_min_epu8(a, _mm_srli_epi16(a, 8)));
+      const Reg pairs_b = _mm_minpos_epu16(_mm_min_epu8(b, _mm_srli_epi16(b, 8)));
+      least_a = _mm_shuffle_epi8(pairs_a, _mm_setzero_si128());
+      least_b = _mm_shuffle_epi8(pairs_b, _mm_setzero_si128());
+      return;
+    }
+#endif
+    Reg both = _mm_min_epu8(_mm_unpacklo_epi64(a, b), _mm_unpackhi_epi64(a, b));
+    both = _mm_min_epu8(both, _mm_srli_epi64(both, 32));
+    both = _mm_min_epu8(both, _mm_srli_epi64(both, 16));
+    both = _mm_min_epu8(both, _mm_srli_epi64(both, 8));
+    least_a = _mm_shuffle_epi8(both, _mm_setzero_si128());
+    least_b = _mm_shuffle_epi8(both, _mm_set1_epi8(8));
+  }
+
+  static std::uint32_t winner8(Reg a) {
+#if defined(__SSE4_1__)
+    if constexpr (kSse41) {
+      const Reg places = _mm_setr_epi8(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+      const Reg pairs = _mm_min_epu16(_mm_unpacklo_epi8(places, a), _mm_unpackhi_epi8(places, a));
+      return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(pairs))) & 0xFFFF;
+    }
+#endif
+    Reg least, unused;
+    least8(a, a, least, unused);
+    const auto equal = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(a, least)));
+    return (static_cast<std::uint32_t>(_mm_cvtsi128_si32(least)) & 0xFF) << 8 |
+           static_cast<std::uint32_t>(__builtin_ctz(equal));
+  }
+
+  static int count8(Reg mask) { return __builtin_popcount(static_cast<unsigned>(_mm_movemask_epi8(mask))); }
+
  private:
   // From pairs of bytes, raised by the cap; packing will clip what is below 0.
   static Reg gradient(Reg right, Reg left, Reg below, int cap) {

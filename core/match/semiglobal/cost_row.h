@@ -1,0 +1,153 @@
+// How well the pixels of a row look like those of the other picture.
+#pragma once
+
+#include <cstdint>
+
+#include "core/match/semiglobal/kernel.h"
+
+namespace stereod::semiglobal {
+
+/// What a row goes through before it is compared.
+template <typename V>
+class CensusRows {
+  using Reg = typename V::Reg;
+
+ public:
+  /// Kernel::census_row.
+  static void row(const std::uint8_t* const* rows, int row_bytes, int shift, std::uint8_t* out) {
+    for (int nibble = 0; nibble < 2; ++nibble) {
+      const std::uint8_t* first[4];
+      const std::uint8_t* second[4];
+      Reg bits[4];
+      for (int i = 0; i < 4; ++i) {
+        const int dx = kFirst[4 * nibble + i][0];
+        const int dy = kFirst[4 * nibble + i][1];
+        first[i] = rows[kCensusReach + dy] + dx;
+        second[i] = rows[kCensusReach - dy] - dx;
+        bits[i] = V::broadcast8(static_cast<std::uint8_t>(1 << (i + shift)));
+      }
+      for (int x = 0; x < row_bytes; x += V::kBytes) {
+        const auto bit = [&](int i) {
+          return V::bit_and(V::at_most8(V::load(first[i] + x), V::load(second[i] + x)), bits[i]);
+        };
+        V::store(out + nibble * row_bytes + x,
+                 V::bit_or(V::bit_or(bit(0), bit(1)), V::bit_or(bit(2), bit(3))));
+      }
+    }
+  }
+
+  /// Kernel::stripe_row.
+  static void stripe(const Shape& shape, const std::uint8_t* plane, std::uint8_t* scratch,
+                     std::uint8_t* out) {
+    const int length = shape.row_bytes();
+    const int stripe = shape.stripe_bytes();
+    std::uint8_t* const backwards = shape.vectors == 1 ? out : scratch;
+    for (int i = 0; i < length; i += 16) V::reverse16(plane + length - 16 - i, backwards + i);
+    switch (shape.vectors) {
+      case 1:
+        return;
+      case 2:
+        return split(backwards, length, out, out + stripe);
+      case 4: {
+        std::uint8_t* const even = scratch + length;
+        std::uint8_t* const odd = even + length / 2;
+        split(backwards, length, even, odd);
+        split(even, length / 2, out, out + 2 * stripe);
+        return split(odd, length / 2, out + stripe, out + 3 * stripe);
+      }
+      default:
+        for (int k = 0; k < shape.vectors; ++k) {
+          for (int i = k, at = 0; i < length; i += shape.vectors, ++at) out[k * stripe + at] = backwards[i];
+        }
+    }
+  }
+
+ private:
+  // Where the first pixels of the eight pairs are; the second ones are on the other side of the middle.
+  static constexpr int kFirst[8][2] = {{-1, -1}, {0, -1},  {1, -1}, {-1, 0},
+                                       {-2, 0},  {-2, -2}, {0, -2}, {2, -2}};
+
+  static void split(const std::uint8_t* in, int length, std::uint8_t* even, std::uint8_t* odd) {
+    for (int i = 0; i < length; i += 32) V::split32(in + i, even + i / 2, odd + i / 2);
+  }
+};
+
+/// Kernel::cost_row for disparities in kVectors vectors; 0: in any number.
+template <typename V, int kVectors>
+class CostRows {
+  using Reg = typename V::Reg;
+  static constexpr int kRoom = kVectors > 0 ? kVectors : kMaxVectors;
+
+ public:
+  static void row(const Shape& shape, const CostRow& row) {
+    shape.column_step == 1 ? smoothed<true>(shape, row) : smoothed<false>(shape, row);
+  }
+
+ private:
+  // Weights 1 2 2 2 1 by averages of averages of pairs of neighbours: with p(x) of the costs at x − 1 and x,
+  // and q(x) of p(x) and p(x − 2), the costs at x become the average of q(x + 1) and q(x + 2). Each round
+  // takes an odd and an even column.
+  template <bool kEveryColumn>
+  static void smoothed(const Shape& shape, const CostRow& row) {
+    const int vectors = kVectors > 0 ? kVectors : shape.vectors;
+    const int point = vectors * V::kBytes;
+    const int last = shape.width - 1;
+    Reg even[kRoom], odd[kRoom];              // costs
+    Reg even_pair[kRoom], odd_pair[kRoom];    // p
+    Reg quad[kEveryColumn ? kRoom : 1] = {};  // q of the even column before
+    costs_at(shape, row, 0, even);
+#pragma GCC unroll 4
+    for (int k = 0; k < vectors; ++k) {
+      even_pair[k] = odd_pair[k] = even[k];
+      if constexpr (kEveryColumn) quad[k] = even[k];
+    }
+    std::uint8_t* out = row.costs;  // of column x − 1
+    const int end = kEveryColumn ? last + 2 : last + 1;
+    for (int x = 1; x <= end; x += 2, out += kEveryColumn ? 2 * point : point) {
+      costs_at(shape, row, x < last ? x : last, odd);
+#pragma GCC unroll 4
+      for (int k = 0; k < vectors; ++k) {
+        const Reg pair = V::average8(even[k], odd[k]);
+        even[k] = V::average8(odd_pair[k], pair);  // q(x); the costs before are not needed any more
+        odd_pair[k] = pair;
+        if constexpr (kEveryColumn)
+          V::store_aligned(out - point + k * V::kBytes, V::average8(quad[k], even[k]));
+      }
+      Reg next[kRoom];
+      costs_at(shape, row, x + 1 < last ? x + 1 : last, next);
+#pragma GCC unroll 4
+      for (int k = 0; k < vectors; ++k) {
+        const Reg pair = V::average8(odd[k], next[k]);
+        const Reg next_quad = V::average8(even_pair[k], pair);
+        V::store_aligned(out + k * V::kBytes, V::average8(even[k], next_quad));
+        even_pair[k] = pair;
+        even[k] = next[k];
+        if constexpr (kEveryColumn) quad[k] = next_quad;
+      }
+    }
+  }
+
+  // The costs of a pixel and its matches: census by a table that the left nibble chooses and the right
+  // nibbles look up, and the gradient.
+  [[gnu::always_inline]] static void costs_at(const Shape& shape, const CostRow& row, int x, Reg* costs) {
+    const int vectors = kVectors > 0 ? kVectors : shape.vectors;
+    const int row_bytes = shape.row_bytes();
+    const int plane = shape.vectors * shape.stripe_bytes();
+    const int match = x - shape.min_disparity;
+    const std::int32_t* const offsets = row.offsets + row_bytes - 1 - (match < -1 ? -1 : match);
+    const Reg first = V::load_table(row.tables + row.left[x]);
+    const Reg second = V::load_table(row.tables + row.left[row_bytes + x]);
+    const Reg gradient = V::broadcast8(row.left[2 * row_bytes + x]);
+    const Reg limit = V::broadcast8(static_cast<std::uint8_t>(shape.gradient_limit));
+#pragma GCC unroll 4
+    for (int k = 0; k < vectors; ++k) {
+      const std::uint8_t* const right = row.right + offsets[k];
+      const Reg census =
+          V::add8(V::look_up(first, V::load(right)), V::look_up(second, V::load(right + plane)));
+      const Reg step = V::abs_diff_u8(gradient, V::load(right + 2 * plane));
+      costs[k] = V::add8(census, V::min8(step, limit));
+    }
+  }
+};
+
+}  // namespace stereod::semiglobal

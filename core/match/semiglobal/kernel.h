@@ -1,0 +1,104 @@
+// The interface between the semi-global matcher and its kernels, one for each instruction set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/match/matcher_options.h"
+
+namespace stereod::semiglobal {
+
+/// A pixel is compared by two nibbles of comparisons with its neighbours and by its gradient.
+inline constexpr int kPlanes = 3;
+/// Vectors that the disparities of a point are spread over at most.
+inline constexpr int kMaxVectors = 16;
+/// Pixels that the census looks at to the left and to the right, and rows up and down.
+inline constexpr int kCensusReach = 2;
+/// Rows of the grid that are smoothed into one, less the middle one, by two.
+inline constexpr int kSmoothReach = 2;
+
+/// What is fixed for a matcher. The disparities of a point lie striped: number k stands in vector k % vectors
+/// at lane k / vectors, so that a neighbouring disparity is mostly in a neighbouring vector, at the same
+/// lane. Those there only to fill up the vectors are the last ones of the last lanes.
+struct Shape {
+  int width;  ///< of the image, px
+  int min_disparity;
+  int disparities;
+  int vectors;      ///< 1…kMaxVectors
+  int lanes;        ///< bytes in a vector
+  int column_step;  ///< 2 on the coarse grid, 1 on the fine one
+  int gradient_limit;
+  int p1;
+  int grid_width() const { return (width + column_step - 1) / column_step; }
+  /// Bytes of the costs of a point.
+  int point_bytes() const { return vectors * lanes; }
+  /// Bytes of a plane of a row of pixels, and of one that runs backwards in stripes. The stripes begin with
+  /// the last of row_bytes() pixels; after the first one come marks for what lies outside.
+  int row_bytes() const { return (width + 63) / 64 * 64; }
+  int stripe_bytes() const { return (row_bytes() + vectors) / vectors + lanes + 16; }
+  int place(int disparity) const { return disparity % vectors * lanes + disparity / vectors; }
+};
+
+/// Costs of a row of the grid smoothed along it, from its first point on; a point's worth of memory before
+/// and after it may be written.
+struct CostRow {
+  const std::uint8_t* left;     ///< [plane][row_bytes()], nibbles times 16
+  const std::uint8_t* right;    ///< [plane][vectors][stripe_bytes()]
+  const std::uint8_t* tables;   ///< [16 left nibbles][16 right nibbles]: costs; 64-byte aligned
+  const std::int32_t* offsets;  ///< where in the stripes each pixel stands, the last of row_bytes() first
+  std::uint8_t* costs;
+};
+
+/// Two rows of the grid, which the kernel works on by turns to hide latencies.
+struct PathRows {
+  const std::uint8_t* costs[2 * kSmoothReach + 2];  ///< of the rows from two before the first on
+  const std::uint8_t* padding;  ///< [point_bytes()]: 255 for disparities that only fill up, else 0
+  const std::uint8_t* p2[2];    ///< for the step from the point to the left; element 0 is not looked at
+  std::uint8_t* smoothed[2];    ///< costs smoothed over rows
+  std::uint8_t* sums[2];        ///< of the paths
+  std::uint16_t* winners[2];    ///< least sum · 256 + the first lane that has it in some vector
+};
+
+/// One instruction set's kernel. The functions take rows of any alignment; costs, sums and padding are
+/// 64-byte aligned.
+struct Kernel {
+  int lanes;
+
+  /// The census of a row of pixels, in two planes of `row_bytes` bytes, each nibble shifted left by `shift`
+  /// (0 or 4). `rows` are five, two above it to two below; of each, kCensusReach pixels to the left and to
+  /// the right of `row_bytes` can be read.
+  void (*census_row)(const std::uint8_t* const* rows, int row_bytes, int shift, std::uint8_t* out);
+
+  /// xsobel_row() of core/match/prefilter.h.
+  void (*xsobel_row)(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width,
+                     int cap, std::uint8_t* out);
+
+  /// A plane of a row backwards and in stripes. `scratch` has two times row_bytes().
+  void (*stripe_row)(const Shape&, const std::uint8_t* plane, std::uint8_t* scratch, std::uint8_t* out);
+
+  void (*cost_row)(const Shape&, const CostRow&);
+
+  /// Smooths costs over rows and sums up the paths from the right.
+  void (*paths_from_right)(const Shape&, const PathRows&);
+
+  /// Adds the paths from the left and finds the winners.
+  void (*paths_from_left)(const Shape&, const PathRows&);
+
+  /// How many of the sums of a point are at most `limit`.
+  int (*count_at_most)(const Shape&, const std::uint8_t* sums, int limit);
+};
+
+/// The kernel of an instruction set that resolve_isa() has found.
+const Kernel& kernel_for(Isa isa);
+
+extern const Kernel kScalarKernel;
+#if defined(__x86_64__) || defined(__i386__)
+extern const Kernel kSsse3Kernel;
+extern const Kernel kSse41Kernel;
+extern const Kernel kAvx2Kernel;
+#endif
+#if defined(__aarch64__) || defined(__ARM_NEON)
+extern const Kernel kNeonKernel;
+#endif
+
+}  // namespace stereod::semiglobal

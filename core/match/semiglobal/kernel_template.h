@@ -1,0 +1,78 @@
+// The one source of the semi-global kernels. Each kernel_<isa>.cpp compiles it for its instruction set, with
+// a vector layer V: core/match/kernels/vector_scalar.h says what its operations do.
+//
+// As with core/match/kernels/kernel_template.h, nothing here may come from a header whose inline functions
+// other files use too: no std:: functions, and every function is a template of V.
+#pragma once
+
+#include "core/match/kernels/row_preparation.h"
+#include "core/match/semiglobal/cost_row.h"
+#include "core/match/semiglobal/kernel.h"
+#include "core/match/semiglobal/paths.h"
+
+namespace stereod::semiglobal {
+
+/// From the run-time number of vectors to the functions compiled for it; 0 stands for any number.
+template <typename V>
+class Dispatch {
+ public:
+  static void cost_row(const Shape& shape, const CostRow& row) {
+    switch (shape.vectors) {
+      case 1:
+        return CostRows<V, 1>::row(shape, row);
+      case 2:
+        return CostRows<V, 2>::row(shape, row);
+      case 3:
+        return CostRows<V, 3>::row(shape, row);
+      case 4:
+        return CostRows<V, 4>::row(shape, row);
+      default:
+        return CostRows<V, 0>::row(shape, row);
+    }
+  }
+
+  static void paths_from_right(const Shape& shape, const PathRows& rows) {
+    switch (shape.vectors) {
+      case 1:
+        return Paths<V, 1>::from_right(shape, rows);
+      case 2:
+        return Paths<V, 2>::from_right(shape, rows);
+      case 3:
+        return Paths<V, 3>::from_right(shape, rows);
+      case 4:
+        return Paths<V, 4>::from_right(shape, rows);
+      default:
+        return Paths<V, 0>::from_right(shape, rows);
+    }
+  }
+
+  static void paths_from_left(const Shape& shape, const PathRows& rows) {
+    switch (shape.vectors) {
+      case 1:
+        return Paths<V, 1>::from_left(shape, rows);
+      case 2:
+        return Paths<V, 2>::from_left(shape, rows);
+      case 3:
+        return Paths<V, 3>::from_left(shape, rows);
+      case 4:
+        return Paths<V, 4>::from_left(shape, rows);
+      default:
+        return Paths<V, 0>::from_left(shape, rows);
+    }
+  }
+};
+
+/// The table entry of an instruction set.
+template <typename V>
+constexpr Kernel make_kernel() {
+  return {V::kBytes,
+          CensusRows<V>::row,
+          kernels::Xsobel<V>::row,
+          CensusRows<V>::stripe,
+          Dispatch<V>::cost_row,
+          Dispatch<V>::paths_from_right,
+          Dispatch<V>::paths_from_left,
+          count_at_most<V>};
+}
+
+}  // namespace stereod::semiglobal

@@ -1,0 +1,65 @@
+#include "core/match/semiglobal/pixel_costs.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace stereod::semiglobal {
+namespace {
+
+std::size_t size(int value) { return static_cast<std::size_t>(value); }
+
+constexpr int kNibbles = 16;
+constexpr int kNibbleShift = 4;  // of left nibbles, which are places of tables of 16 bytes
+
+// What stands in the planes beyond the picture: no comparison differs (tables give 0 for it), and the
+// gradient differs by more than any limit.
+constexpr std::uint8_t kOutside[kPlanes] = {128, 128, 255};
+
+}  // namespace
+
+PixelCosts::PixelCosts(const MatcherOptions& options, const Shape& shape, const Kernel& kernel)
+    : shape_(shape),
+      kernel_(kernel),
+      prefilter_cap_(options.prefilter_cap),
+      tables_(size(kNibbles * kNibbles)),
+      offsets_(size(shape.row_bytes() + shape.vectors)),
+      left_(size(kPlanes * shape.row_bytes())),
+      right_(size(kPlanes * shape.row_bytes())),
+      scratch_(size(2 * shape.row_bytes())),
+      stripes_(size(kPlanes * shape.vectors * shape.stripe_bytes())) {
+  for (unsigned left = 0; left < kNibbles; ++left) {
+    for (unsigned right = 0; right < kNibbles; ++right) {
+      tables_[left * kNibbles + right] =
+          static_cast<std::uint8_t>(options.census_weight * std::popcount(left ^ right));
+    }
+  }
+  for (int i = 0; i < static_cast<int>(offsets_.size()); ++i) {
+    offsets_[size(i)] = i % shape.vectors * shape.stripe_bytes() + i / shape.vectors;
+  }
+  const std::size_t plane = stripes_.size() / kPlanes;
+  for (std::size_t i = 0; i < kPlanes; ++i) std::fill_n(stripes_.data() + i * plane, plane, kOutside[i]);
+}
+
+void PixelCosts::write(const PixelRows& left, const PixelRows& right, std::uint8_t* costs) noexcept {
+  describe(left, kNibbleShift, left_.data());
+  describe(right, 0, right_.data());
+  const std::size_t plane = stripes_.size() / kPlanes;
+  for (std::size_t i = 0; i < kPlanes; ++i) {
+    kernel_.stripe_row(shape_, right_.data() + i * size(shape_.row_bytes()), scratch_.data(),
+                       stripes_.data() + i * plane);
+  }
+  kernel_.cost_row(shape_, {left_.data(), stripes_.data(), tables_.data(), offsets_.data(), costs});
+}
+
+void PixelCosts::describe(const PixelRows& rows, int shift, std::uint8_t* planes) noexcept {
+  kernel_.census_row(rows.census, shape_.row_bytes(), shift, planes);
+  kernel_.xsobel_row(rows.above, rows.row, rows.below, shape_.width, prefilter_cap_,
+                     planes + 2 * size(shape_.row_bytes()));
+}
+
+std::size_t PixelCosts::scratch_bytes() const noexcept {
+  return tables_.size() + offsets_.size() * sizeof(offsets_[0]) + left_.size() + right_.size() +
+         scratch_.size() + stripes_.size();
+}
+
+}  // namespace stereod::semiglobal

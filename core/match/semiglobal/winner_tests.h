@@ -1,0 +1,42 @@
+// From the winners of a row of the grid to its disparities: interpolation and tests.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/match/matcher_options.h"
+#include "core/match/semiglobal/grid_values.h"
+#include "core/match/semiglobal/kernel.h"
+
+namespace stereod::semiglobal {
+
+/// Sections 2.3 and 2.4 of docs/matcher.md, of one row.
+class WinnerTests {
+ public:
+  WinnerTests(const MatcherOptions& options, const Shape& shape, const Kernel& kernel);
+
+  /// `sums` and `winners` as Kernel::paths_from_left leaves them. Masks are of the image row, null if all its
+  /// pixels are valid.
+  void write(const std::uint8_t* sums, const std::uint16_t* winners, const std::uint8_t* left_mask,
+             const std::uint8_t* right_mask, GridValue* out) noexcept;
+  std::size_t scratch_bytes() const noexcept;
+
+ private:
+  void interpolate(const std::uint8_t* sums, const std::uint16_t* winners, GridValue* out) noexcept;
+  void reject_contested(GridValue* out) const noexcept;
+  void reject_ambiguous(const std::uint8_t* sums, const std::uint16_t* winners,
+                        GridValue* out) const noexcept;
+  void reject_masked(const std::uint8_t* left_mask, const std::uint8_t* right_mask,
+                     GridValue* out) const noexcept;
+
+  const MatcherOptions& options_;
+  const Shape& shape_;
+  const Kernel& kernel_;
+  std::vector<std::int32_t> reciprocals_;     // 65536 / i, rounded
+  std::vector<std::uint8_t> before_, after_;  // where a disparity's neighbours stand
+  std::vector<std::uint8_t> index_;           // the winning disparity of each point
+  std::vector<std::uint16_t> claims_;         // best sum · 256 + disparity for right points
+};
+
+}  // namespace stereod::semiglobal
