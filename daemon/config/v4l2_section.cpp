@@ -55,6 +55,20 @@ void check_own_controls(YamlSection& section, const std::string& key, const Cont
   }
 }
 
+// With lock and follow the daemon itself lets an automatic mode work, and switches it off.
+void check_modes(YamlSection& section, const ControlValues& values, ExposureMode mode) {
+  if (mode == ExposureMode::kAuto) return;
+  for (const auto& [name, value] : values) {
+    const bool exposure = name == "auto_exposure" || name == "exposure_auto";
+    const bool gain = name == "gain_automatic" || name == "autogain";
+    if (!(exposure && value != 1) && !(gain && value != 0)) continue;
+    const std::string modes = mode == ExposureMode::kLock ? "lock" : "follow";
+    section.fail("controls", "found " + name + ": " + std::to_string(value) +
+                                 ", an automatic mode, but 'exposure: " + modes +
+                                 "' sets it by itself; leave it out, or set 'exposure: auto'");
+  }
+}
+
 }  // namespace
 
 void read_v4l2_section(YamlSection& cameras_section, CamerasConfig& cameras) {
@@ -78,6 +92,7 @@ void read_v4l2_section(YamlSection& cameras_section, CamerasConfig& cameras) {
   v4l2.controls = section.integers("controls");
   v4l2.left_controls = section.integers("left_controls");
   v4l2.right_controls = section.integers("right_controls");
+  check_modes(section, v4l2.controls, v4l2.exposure);
   check_own_controls(section, "left_controls", v4l2.left_controls, v4l2.exposure);
   check_own_controls(section, "right_controls", v4l2.right_controls, v4l2.exposure);
   v4l2.align = section.choice<AlignMode>("align", v4l2.align, "never, start and always", parse_align);

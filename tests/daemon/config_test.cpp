@@ -290,6 +290,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadConfig{"cameras:\n  source: v4l2\n  v4l2: {left: //dev/video0, right: /dev/./video0}\n",
                   "stereod.yaml:3: cameras.v4l2.right: found '/dev/video0', which is the left camera; name "
                   "another one"},
+        BadConfig{"cameras:\n  source: v4l2\n  v4l2: {exposure: follow, controls: {auto_exposure: 3}}\n",
+                  "stereod.yaml:3: cameras.v4l2.controls: found auto_exposure: 3, an automatic mode, but "
+                  "'exposure: "
+                  "follow' sets it by itself; leave it out, or set 'exposure: auto'"},
         BadConfig{
             "cameras:\n  source: v4l2\n  v4l2: {exposure: lock, left_controls: {gain: 3}}\n",
             "stereod.yaml:3: cameras.v4l2.left_controls: found gain for one camera, but with 'exposure: "

@@ -82,6 +82,62 @@ TEST_F(Bandwidth, StreamsThatNeverDeliverStepDownToo) {
   EXPECT_EQ(bench_.right->report().format, "MJPG 64×48 at 30/s");
 }
 
+TEST_F(Bandwidth, AlsoIfNeitherDelivers) {
+  send_jpegs();
+  bench_.video.bus_capacity = 0.9 * kYuyvTraffic;
+  bench_.video.starve = true;
+  bench_.make();
+  bench_.run(20'000);
+  const CameraBench::Frames frames = bench_.run(2000);
+  EXPECT_GT(frames.left, 50);
+  EXPECT_GT(frames.right, 50);
+}
+
+TEST_F(Bandwidth, TheOtherCameraMakesRoomForOneThatHasNoFurtherStep) {
+  for (const bool left_has_one : {true, false}) {
+    CameraBench bench;
+    const std::vector<std::uint8_t> jpeg = camera_jpeg(kSize, 99);
+    FakeCamera& rich = left_has_one ? *bench.left_camera : *bench.right_camera;
+    rich.modes = {{fourcc('Y', 'U', 'Y', 'V'), kSize, {30}}, {fourcc('M', 'J', 'P', 'G'), kSize, {30}}};
+    rich.on_frame = [jpeg](FakeFrame& frame) { std::copy(jpeg.begin(), jpeg.end(), frame.bytes.begin()); };
+    bench.video.bus_capacity = 1.5 * kYuyvTraffic;
+    bench.video.starve = true;
+    bench.make();
+    bench.run(15'000);
+    const CameraBench::Frames frames = bench.run(2000);
+    EXPECT_GT(frames.left, 50) << left_has_one;
+    EXPECT_GT(frames.right, 50) << left_has_one;
+  }
+}
+
+TEST_F(Bandwidth, AStreamStarvedForGoodIsBlamedOnTheBusOnce) {
+  bench_.config.v4l2.format = "yuyv";
+  bench_.video.bus_capacity = 1.5 * kYuyvTraffic;
+  bench_.video.starve = true;
+  bench_.make();
+  bench_.run(15'000);
+  const std::size_t lines = bench_.log.size();
+  for (int i = 0; i < 60; ++i) {
+    bench_.run(1000);
+    EXPECT_EQ(bench_.right->fault().reason, CameraReason::kNoBandwidth) << i;
+  }
+  EXPECT_EQ(bench_.log.size(), lines);
+  EXPECT_THAT(bench_.right->report().reason, HasSubstr("set cameras.v4l2.format to mjpeg or auto"));
+}
+
+TEST_F(Bandwidth, AFormatThatTheDriverDoesNotTakeIsNotTriedForEver) {
+  send_jpegs();
+  for (FakeCamera* camera : {bench_.left_camera, bench_.right_camera}) {
+    camera->on_set_format = [](DeviceFormat& format) {
+      if (format.pixels == fourcc('Y', 'U', 'Y', 'V')) format.size = {32, 24};
+    };
+  }
+  bench_.make();
+  bench_.run(6000);
+  EXPECT_GT(bench_.run(2000).left, 50);
+  EXPECT_EQ(bench_.left->report().format, "MJPG 64×48 at 30/s");
+}
+
 TEST_F(Bandwidth, ASilentCameraThatHasStreamedHereIsNotTakenForAFullBus) {
   bench_.make();
   bench_.run(2000);

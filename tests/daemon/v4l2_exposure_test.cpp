@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <linux/videodev2.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 
 #include "tests/support/camera_bench.h"
 
@@ -191,6 +193,47 @@ TEST_F(Controls, AnExposureThatDoesNotTakeIsReportedOnce) {
 }
 
 // A control that cannot be read or set for a moment is asked for again.
+TEST_F(Controls, WhatSomebodyElseChangesIsSetBack) {
+  bench_.config.v4l2.exposure = ExposureMode::kLock;
+  bench_.make();
+  bench_.run(4000);
+  const std::int32_t locked = value(*bench_.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE);
+  set(*bench_.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE, 500);
+  set(*bench_.right_camera, V4L2_CID_EXPOSURE_ABSOLUTE, 999);
+  bench_.run(1500);
+  EXPECT_EQ(value(*bench_.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE), locked);
+  EXPECT_EQ(value(*bench_.right_camera, V4L2_CID_EXPOSURE_ABSOLUTE), locked);
+}
+
+TEST_F(Controls, ACameraThatCannotTakePartSaysSo) {
+  bench_.right_camera->controls = {{V4L2_CID_BRIGHTNESS, "Brightness", 0, 255, 128, 128}};
+  for (const ExposureMode mode : {ExposureMode::kLock, ExposureMode::kFollow}) {
+    bench_.config.v4l2.exposure = mode;
+    bench_.make();
+    bench_.run(1000);
+    EXPECT_THAT(bench_.right->report().note, HasSubstr("has no exposure_time_absolute"));
+    EXPECT_EQ(bench_.left->report().note, "");
+  }
+}
+
+// Two equal cameras in phase that stamp the end of a frame: what they expose when they are opened is not what
+// they do when they have been made alike.
+TEST_F(Controls, MadeAlikeTheirStampsAreTooAtTheEndOfAFrame) {
+  bench_.config.v4l2.exposure = ExposureMode::kFollow;
+  set(*bench_.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE, 20);
+  set(*bench_.right_camera, V4L2_CID_EXPOSURE_ABSOLUTE, 170);
+  for (FakeCamera* camera : {bench_.left_camera, bench_.right_camera}) {
+    camera->stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_EOF;
+    camera->keeps_phase = true;
+  }
+  bench_.make();
+  bench_.run(2000);
+  const std::int64_t left = bench_.frame(*bench_.left).frame().captured_ns;
+  const std::int64_t right = bench_.frame(*bench_.right).frame().captured_ns;
+  const std::int64_t apart = std::abs(right - left) % 33'333'333;
+  EXPECT_LT(std::min(apart, 33'333'333 - apart), 10'000);
+}
+
 TEST_F(Controls, AnErrorThatPassesDoesNotEndLockOrFollow) {
   for (const ExposureMode mode : {ExposureMode::kLock, ExposureMode::kFollow}) {
     for (const bool reading : {true, false}) {

@@ -203,6 +203,20 @@ TEST(JpegLuma, NorDoTheyBeforeARestartMarker) {
   EXPECT_GT(restarts, 1);
 }
 
+TEST(JpegLuma, MoreThanAFewBytesTooManyAreDamage) {
+  const std::vector<std::uint8_t> jpeg = without_huffman_tables(camera_jpeg({320, 240}, -1));
+  ASSERT_GT(jpeg.size(), 4000U);
+  JpegLumaDecoder decoder;
+  GreyImage luma(320, 240);
+  FrameDrop drop{};
+  ASSERT_TRUE(decoder.decode(jpeg, luma.view(), drop));
+  std::vector<std::uint8_t> twice = jpeg;
+  const auto middle = static_cast<std::ptrdiff_t>(jpeg.size() / 2);
+  twice.insert(twice.begin() + middle, jpeg.begin() + middle - 512, jpeg.begin() + middle);
+  EXPECT_FALSE(decoder.decode(twice, luma.view(), drop));
+  EXPECT_EQ(drop, FrameDrop::kJpegDamaged);
+}
+
 TEST(JpegLuma, AnEndThatComesTooSoonIsSeen) {
   const std::vector<std::uint8_t> jpeg = without_huffman_tables(camera_jpeg(kSize, -1));
   JpegLumaDecoder decoder;

@@ -84,7 +84,7 @@ TEST_F(V4l2Identity, IsFoundByEveryKindOfName) {
   metadata.node = "/dev/video1";
   metadata.serial = "LEFT";
   metadata.capture = false;
-  metadata.links = {"/dev/v4l/by-path/port-0"};
+  metadata.links = {"/dev/v4l/by-path/port-0"};  // before the cameras
   bench_.video.add(metadata);
   for (const char* name : {"/dev/video0", "/dev/v4l/by-path/port-1", "/dev/v4l/by-id/usb-LEFT-video-index0",
                            "port-1", "usb-LEFT-video-index0", "serial:LEFT", "auto"}) {
@@ -119,6 +119,19 @@ TEST_F(V4l2Identity, AutomaticNamesNeedTwoCameras) {
   EXPECT_THAT(bench_.left->report().reason, HasSubstr("only /dev/video0 is plugged in"));
   bench_.video.plug(*bench_.right_camera, true);
   EXPECT_GT(bench_.run(1000).left, 10);
+}
+
+TEST_F(V4l2Identity, ACameraThatMayNotBeOpenedIsNotSaidToBeMissing) {
+  for (FakeCamera* camera : {bench_.left_camera, bench_.right_camera}) {
+    camera->faults[kFakeOpen] = {EACCES, 1'000'000};
+  }
+  for (const char* name : {"auto", "serial:LEFT"}) {
+    bench_.config.v4l2.left = bench_.config.v4l2.right = name;
+    bench_.make();
+    EXPECT_FALSE(bench_.frame(*bench_.left, 1000));
+    EXPECT_EQ(bench_.left->fault().reason, CameraReason::kNotPermitted) << name;
+    EXPECT_THAT(bench_.left->report().reason, HasSubstr("add this user to the group")) << name;
+  }
 }
 
 TEST_F(V4l2Identity, TheListNamesWhatTheConfigurationNeeds) {

@@ -49,6 +49,9 @@ std::vector<VideoNode> FakeVideo::nodes() {
   for (const auto& camera : cameras_) {
     if (camera->plugged) nodes.push_back({camera->node, camera->links, camera->serial});
   }
+  // As the kernel's are, by port.
+  std::stable_sort(nodes.begin(), nodes.end(),
+                   [](const VideoNode& a, const VideoNode& b) { return a.links < b.links; });
   return nodes;
 }
 

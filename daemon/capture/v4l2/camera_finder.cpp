@@ -1,6 +1,7 @@
 #include "daemon/capture/v4l2/camera_finder.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <vector>
 
 #include "daemon/capture/v4l2/video_device.h"
@@ -10,12 +11,16 @@ namespace {
 
 constexpr std::string_view kSerial = "serial:";
 
-bool gives_pictures(VideoSystem& system, const VideoNode& node) {
+/// 0 if it does; EACCES or EPERM if this user may not know; else another error.
+int gives_pictures(VideoSystem& system, const VideoNode& node) {
   VideoDevice device(system);
+  if (const int error = device.open(node.node, false)) return error;
   DeviceCapability capability;
-  return device.open(node.node, false) == 0 && device.capability(capability) == 0 && capability.captures &&
-         capability.streams;
+  if (const int error = device.capability(capability)) return error;
+  return capability.captures && capability.streams ? 0 : ENOTTY;
 }
+
+bool is_refusal(int error) { return error == EACCES || error == EPERM; }
 
 bool is_link_name(const VideoNode& node, const std::string& name) {
   return std::any_of(node.links.begin(), node.links.end(), [&](const std::string& link) {
@@ -30,13 +35,17 @@ CameraFault not_found(const std::string& sentence) {
 std::optional<CameraFault> find_automatically(VideoSystem& system, Side side, std::string& node,
                                               std::string& stable_name) {
   std::vector<VideoNode> cameras;
+  std::string refused;
   for (const VideoNode& candidate : system.nodes()) {
     const auto is_its = [&](const VideoNode& other) {
       return system.camera_of(other.node) == system.camera_of(candidate.node);
     };
-    if (!gives_pictures(system, candidate)) continue;
+    const int error = gives_pictures(system, candidate);
+    if (is_refusal(error) && refused.empty()) refused = candidate.node;
+    if (error != 0) continue;
     if (std::none_of(cameras.begin(), cameras.end(), is_its)) cameras.push_back(candidate);
   }
+  if (cameras.size() < 2 && !refused.empty()) return fault_of(CameraStep::kOpen, EACCES, refused);
   if (cameras.size() < 2) {
     const std::string found = cameras.empty() ? "none is" : "only " + cameras[0].node + " is";
     return CameraFault{
@@ -64,7 +73,10 @@ std::optional<CameraFault> find_camera(VideoSystem& system, Side side, const std
   for (const VideoNode& candidate : system.nodes()) {
     const bool named =
         serial ? candidate.serial == name.substr(kSerial.size()) : is_link_name(candidate, name);
-    if (!named || (serial && !gives_pictures(system, candidate))) continue;
+    if (!named) continue;
+    const int error = serial ? gives_pictures(system, candidate) : 0;
+    if (is_refusal(error)) return fault_of(CameraStep::kOpen, error, candidate.node);
+    if (error != 0) continue;
     node = candidate.node;
     return std::nullopt;
   }

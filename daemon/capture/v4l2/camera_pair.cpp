@@ -1,5 +1,7 @@
 #include "daemon/capture/v4l2/camera_pair.h"
 
+#include <algorithm>
+
 namespace stereod {
 namespace {
 
@@ -38,11 +40,13 @@ CameraPair::CameraPair(const CamerasConfig& config) : config_(config), phase_(ph
 
 void CameraPair::started(Side side, std::int64_t at_ns) noexcept {
   const std::lock_guard lock(mutex_);
+  of(side).running = true;
   phase_.started(side, at_ns);
 }
 
 void CameraPair::stopped(Side side) noexcept {
   const std::lock_guard lock(mutex_);
+  of(side).running = false;
   phase_.interrupted(side);
 }
 
@@ -124,14 +128,16 @@ bool CameraPair::step_down(Side side, int step) {
   const std::lock_guard lock(mutex_);
   if (config_.v4l2.format != "auto") return false;
   if (ladder_step_ > step) return true;  // the other camera asked for it already
-  if (ladder_step_ + 1 >= of(side).facts.ladder_steps) return false;
+  // The other camera may have a further step where this one has none, and leave it more of the bus.
+  const int steps = std::max(of(side).facts.ladder_steps, of(opposite(side)).facts.ladder_steps);
+  if (ladder_step_ + 1 >= steps) return false;
   ++ladder_step_;
   return true;
 }
 
 bool CameraPair::may_starve(Side side) {
   const std::lock_guard lock(mutex_);
-  return of(opposite(side)).flowing && on_same_bus() && carried_step_ != ladder_step_;
+  return of(opposite(side)).running && on_same_bus() && carried_step_ != ladder_step_;
 }
 
 bool CameraPair::on_same_bus() const { return cameras_[0].bus == cameras_[1].bus; }

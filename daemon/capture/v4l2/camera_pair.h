@@ -69,8 +69,8 @@ class CameraPair {
   /// False: there is no further step.
   bool step_down(Side side, int step);
 
-  /// Whether the other camera streams on the bus that `side` is on, and nothing has shown yet that the bus
-  /// can carry both as they are.
+  /// Whether the other camera was started on the bus that `side` is on, and nothing has shown yet that the
+  /// bus can carry both as they are.
   bool may_starve(Side side);
 
   /// Says which bus is full, what both cameras ask of it, and what to do.
@@ -83,7 +83,8 @@ class CameraPair {
     std::string device;  // found when it was last looked for; the other camera may not have it
     StreamFacts facts;
     std::string bus;  // where it is, or was when it was last there
-    bool flowing = false;
+    bool running = false;  // started
+    bool flowing = false;  // and frames come
   };
   bool on_same_bus() const;
   void begin_ladder_anew();

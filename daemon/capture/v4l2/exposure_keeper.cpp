@@ -38,8 +38,14 @@ void ExposureKeeper::begin(VideoDevice& device, std::int64_t now_ns) {
     if (has_gain_mode_) controls.reset(V4L2_CID_AUTOGAIN);
   }
   complaints_ = controls.apply(values);
+  if (config_.exposure != ExposureMode::kAuto && controls.find(V4L2_CID_EXPOSURE_ABSOLUTE) == nullptr) {
+    complaints_ += std::string(complaints_.empty() ? "" : "; ") +
+                   "it has no exposure_time_absolute, so both cameras cannot be exposed alike";
+  }
   std::int32_t time = 0;
-  const bool known = device.get_control(V4L2_CID_EXPOSURE_ABSOLUTE, time) == 0 && time > 0;
+  // Where both cameras are brought to one exposure, what it is now will not be what it is then.
+  const bool known = config_.exposure == ExposureMode::kAuto &&
+                     device.get_control(V4L2_CID_EXPOSURE_ABSOLUTE, time) == 0 && time > 0;
   exposure_ns_ = known ? std::int64_t{time} * 100'000 : 0;
 }
 
@@ -76,8 +82,10 @@ bool ExposureKeeper::tick(VideoDevice& device, std::int64_t now_ns) noexcept {
     if (!lock || now_ns >= settled_ns_) offer(read(device));
     return false;
   }
-  if (!wanted || (manual_ && applied_ == wanted && !differs(*wanted))) return false;
-  fix(device, *wanted);
+  if (!wanted) return false;
+  const bool fixed = manual_ && applied_ == wanted;
+  if (fixed) got_ = read(device);  // somebody else may have changed it
+  if (!fixed || differs(*wanted)) fix(device, *wanted);
   const bool different = differs(*wanted);
   return std::exchange(told_, different) != different;
 }

@@ -38,7 +38,8 @@ class ExposureKeeper {
   /// What does not take now, in words.
   std::string note() const;
 
-  /// The exposure time as it was at begin(), ns; 0 if the camera does not say.
+  /// The exposure time as it was at begin(), ns; 0 if the camera does not say, and with lock and follow: both
+  /// cameras will have the same then.
   std::int64_t exposure_ns() const noexcept { return exposure_ns_; }
 
  private:

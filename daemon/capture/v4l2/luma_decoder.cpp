@@ -37,13 +37,16 @@ JpegLumaDecoder::Libjpeg& self(j_common_ptr info) {
 
 [[noreturn]] void leave(j_common_ptr info) { std::longjmp(self(info).failed, 1); }
 
+// More than this left over at a marker is not padding: something was put in, and what was decoded is wrong.
+constexpr int kFewBytes = 100;
+
 // What libjpeg warns of though the picture is whole. Some webcams put a few bytes too many before the end of
 // a picture, or before a restart marker in it: all that was wanted had been decoded by then, for data that
 // end too soon, and markers that are missing, have warnings of their own.
 bool is_harmless(const jpeg_error_mgr& errors) {
   if (errors.msg_code == JWRN_JFIF_MAJOR) return true;  // a number in the header that nothing depends on
-  const int marker = errors.msg_parm.i[1];
-  return errors.msg_code == JWRN_EXTRANEOUS_DATA &&
+  const int bytes = errors.msg_parm.i[0], marker = errors.msg_parm.i[1];
+  return errors.msg_code == JWRN_EXTRANEOUS_DATA && bytes <= kFewBytes &&
          (marker == JPEG_EOI || (marker >= JPEG_RST0 && marker <= JPEG_RST0 + 7));
 }
 

@@ -21,6 +21,7 @@ constexpr std::int64_t kLookAgain = kSecond;  // for an absent camera, should an
 // does, only its first, second, fourth, eighth … start is given that long.
 constexpr std::int64_t kColdStart = 3 * kSecond;
 constexpr std::int64_t kSilence = kSecond;
+constexpr int kRefusals = 3;  // of a format, before the next is tried
 constexpr std::int64_t kLoanCheck = kSecond / 100;
 constexpr std::int64_t kStopTime = kSecond / 500;  // a stopped stream can be started after that
 
@@ -103,8 +104,19 @@ void V4l2Camera::open() {
   }
   if (fault->reason == CameraReason::kSameCamera && wait_for_other()) return;
   if (fault->reason == CameraReason::kNoBandwidth) no_bandwidth(*fault);
+  count_refusal(*fault);
   const bool absent = fault->step == CameraStep::kFind || fault->reason == CameraReason::kUnplugged;
   fail(absent ? CameraState::kAbsent : CameraState::kOpening, std::move(*fault));
+}
+
+// A driver may offer a format that it then does not take; the next on the ladder is as good as another bus.
+void V4l2Camera::count_refusal(const CameraFault& fault) {
+  const bool refused = fault.step == CameraStep::kSetFormat && (fault.reason == CameraReason::kOtherFormat ||
+                                                                fault.reason == CameraReason::kNoFormat);
+  refusals_ = refused ? refusals_ + 1 : 0;
+  if (refusals_ < kRefusals) return;
+  refusals_ = 0;
+  pair_->step_down(side_, ladder_step_);
 }
 
 // After ports were swapped the other camera may not have noticed yet that it lost what is found here.
@@ -170,8 +182,12 @@ FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
   keep_exposure();
   const std::int64_t wait_ns = std::min(until_ns, last_good_ns_ + patience_ns()) - system_.now_ns();
   const auto wait = std::chrono::milliseconds(std::max<std::int64_t>(0, wait_ns) / 1'000'000 + 1);
+  const std::int64_t asked_ns = system_.now_ns();
   const WaitResult ready = waiter_->wait(stream_.descriptor(), wait);
   if (stopping_) return {};
+  // If it was this process that stood still, the camera is not to blame.
+  const std::int64_t late_ns = system_.now_ns() - asked_ns - std::max<std::int64_t>(0, wait_ns);
+  if (late_ns > kSilence / 4) last_good_ns_ += late_ns;
   FrameLease lease;
   if (ready.readable || ready.broken) {
     int error = 0;
@@ -299,7 +315,8 @@ void V4l2Camera::no_bandwidth(CameraFault& fault) {
   fault.reason = CameraReason::kNoBandwidth;
   fault.sentence = pair_->bandwidth_sentence(side_);
   const bool stepped = pair_->step_down(side_, ladder_step_);
-  if (stepped) fault.sentence += "; until then both cameras are set up with less";
+  if (!stepped) return;  // and every start in vain is blamed on the bus
+  fault.sentence += "; until then both cameras are set up with less";
   silent_starts_ = 0;
 }
 

@@ -47,6 +47,7 @@ class V4l2Camera final : public FrameSource {
   void opened();
   void started();
   bool wait_for_other();
+  void count_refusal(const CameraFault& fault);
   std::optional<CameraFault> find_and_open();
   FrameLease fetch(std::int64_t until_ns);
   void streaming();
@@ -88,6 +89,7 @@ class V4l2Camera final : public FrameSource {
   // From a start to its first frame, since it was plugged in; 0: none came.
   std::int64_t longest_start_ns_ = 0;
   unsigned starts_in_vain_ = 0;  // since it last had a frame or was plugged in
+  int refusals_ = 0;             // how often in a row the driver did not take the format
   int silent_starts_ = 0;        // how often it was opened in vain while the other camera had the bus
   std::atomic<std::int64_t> frame_time_ns_{0};
 
