@@ -39,7 +39,7 @@ struct Masks {
   int most;          // disparities of the chunk
 };
 
-template <typename V, Arithmetic kA, bool kRecompute, int kVectors>
+template <typename V, Arithmetic kA, int kVectors>
 class BlockSearch {
   using Reg = typename V::Reg;
   static constexpr int kLanes = V::kBytes / 2;
@@ -85,14 +85,18 @@ class BlockSearch {
 
   // At the left border less disparities can be searched than elsewhere.
   static Sweep sweep_for(const Shape& shape, const Block& block, int chunk) {
+    return shape.recompute ? sweep_for<true>(shape, block, chunk) : sweep_for<false>(shape, block, chunk);
+  }
+  template <bool kRecompute>
+  static Sweep sweep_for(const Shape& shape, const Block& block, int chunk) {
     const bool keep = shape.neighbours || shape.uniqueness_ratio > 0;
     const int chunk_end = (chunk + 1) * kChunk;
     const bool padded = chunk_end > shape.disparities;
     const int last = padded ? shape.disparities : chunk_end;
     if (block.first - shape.window + 2 < last)
-      return keep ? sweep<true, true, true> : sweep<true, true, false>;
-    if (padded) return keep ? sweep<false, true, true> : sweep<false, true, false>;
-    return keep ? sweep<false, false, true> : sweep<false, false, false>;
+      return keep ? sweep<kRecompute, true, true, true> : sweep<kRecompute, true, true, false>;
+    if (padded) return keep ? sweep<kRecompute, false, true, true> : sweep<kRecompute, false, true, false>;
+    return keep ? sweep<kRecompute, false, false, true> : sweep<kRecompute, false, false, false>;
   }
 
   // The window sums of a chunk on their way along the row, in memory between two blocks, register by
@@ -129,7 +133,7 @@ class BlockSearch {
   // Adds the row to the column sums of the block, slides the window along them and writes for each column the
   // least sum and where it is. kRamp: which disparities can be searched differs from column to column.
   // kPadded: there are disparities that only fill up the chunk. kKeep: all sums go to scratch.block_sums.
-  template <bool kRamp, bool kPadded, bool kKeep>
+  template <bool kRecompute, bool kRamp, bool kPadded, bool kKeep>
   static void sweep(const Shape& shape, const Strip& strip, const RowChange& row, const Scratch& scratch,
                     const Block& block, int chunk, Running& running, std::uint32_t (*found)[kBlockColumns]) {
     const std::ptrdiff_t back = static_cast<std::ptrdiff_t>(shape.window) * kChunk;

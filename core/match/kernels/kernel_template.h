@@ -20,7 +20,9 @@ namespace stereod::kernels {
 /// vectors of 16 bytes) or 64 disparities: every further size would make the program larger.
 template <typename V>
 class Dispatch {
-  static constexpr int kMinChunk = 32;
+  // Plain C++ is for CPUs that have nothing else: it has one size, to be small.
+  static constexpr bool kOneSize = requires { V::kOneSize; };
+  static constexpr int kMinChunk = kOneSize ? kMaxChunk : 32;
 
  public:
   static int chunk_for(int disparities) {
@@ -45,11 +47,11 @@ class Dispatch {
                          const Winners& winners) {
     switch (shape.arithmetic) {
       case Arithmetic::kPacked:
-        return search<Arithmetic::kPacked>(shape, strip, row, scratch, winners);
+        return search_by_size<Arithmetic::kPacked>(shape, strip, row, scratch, winners);
       case Arithmetic::kPackedHalves:
-        return search<Arithmetic::kPackedHalves>(shape, strip, row, scratch, winners);
+        return search_by_size<Arithmetic::kPackedHalves>(shape, strip, row, scratch, winners);
       case Arithmetic::kRaw:
-        return search<Arithmetic::kRaw>(shape, strip, row, scratch, winners);
+        return search_by_size<Arithmetic::kRaw>(shape, strip, row, scratch, winners);
       case Arithmetic::kWide:
         return WideSearch<V>::template row<true>(shape, strip, row, scratch, winners);
     }
@@ -63,25 +65,18 @@ class Dispatch {
   }
 
   template <Arithmetic kA>
-  static void search(const Shape& shape, const Strip& strip, const RowChange& row, const Scratch& scratch,
-                     const Winners& out) {
-    shape.recompute ? search_by_size<kA, true>(shape, strip, row, scratch, out)
-                    : search_by_size<kA, false>(shape, strip, row, scratch, out);
-  }
-
-  template <Arithmetic kA, bool kRecompute>
   static void search_by_size(const Shape& shape, const Strip& strip, const RowChange& row,
                              const Scratch& scratch, const Winners& out) {
     switch (shape.chunk / V::kBytes) {
       case kMaxChunk / V::kBytes:
-        return BlockSearch<V, kA, kRecompute, kMaxChunk / V::kBytes>::row(shape, strip, row, scratch, out);
+        return BlockSearch<V, kA, kMaxChunk / V::kBytes>::row(shape, strip, row, scratch, out);
       case 3:  // of vectors of 16 bytes
-        if constexpr (V::kBytes == 16) {
-          return BlockSearch<V, kA, kRecompute, 3>::row(shape, strip, row, scratch, out);
+        if constexpr (V::kBytes == 16 && !kOneSize) {
+          return BlockSearch<V, kA, 3>::row(shape, strip, row, scratch, out);
         }
         break;
       default:
-        return BlockSearch<V, kA, kRecompute, kMinChunk / V::kBytes>::row(shape, strip, row, scratch, out);
+        return BlockSearch<V, kA, kMinChunk / V::kBytes>::row(shape, strip, row, scratch, out);
     }
   }
 };

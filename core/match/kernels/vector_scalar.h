@@ -10,6 +10,7 @@ namespace stereod::kernels {
 
 struct VectorScalar {
   static constexpr int kBytes = 16;
+  static constexpr bool kOneSize = true;  // of chunks
   /// Added to every 16-bit sum, modulo 65536, so that min16() may compare signed numbers.
   static constexpr std::uint16_t kBias = 0;
   /// In which order the two halves that widening signed bytes leaves hold them: the even and the odd bytes,
