@@ -36,6 +36,8 @@ std::optional<std::string> region_problem(const PublishConfig& publish, Size ima
 }
 
 ColumnRange columns_to_match(const MatcherOptions& options, Size image, ColumnRange wanted) {
+  // The paths of the semi-global one go along whole rows.
+  if (options.method == Method::kSemiglobal) return {0, image.width};
   // A window, the pixels beside it that the prefilter looks at, and the neighbours of the median.
   const int around = options.window / 2 + options.median / 2 + 1;
   const int farthest = options.min_disparity + options.disparities;

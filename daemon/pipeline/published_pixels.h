@@ -34,8 +34,8 @@ struct PublishedPixels {
 /// Why images of this size have no such region, as a sentence; nothing if they have.
 std::optional<std::string> region_problem(const PublishConfig& publish, Size image);
 
-/// The columns that have to be matched so that the block matcher gives `wanted` the answers that it would
-/// give them in the whole image: those that windows, filters and the search for matches look at.
+/// The columns that have to be matched so that `wanted` get the answers that they would get in the whole
+/// image: those that windows, filters and the search for matches look at; for the semi-global matcher all.
 ColumnRange columns_to_match(const MatcherOptions& options, Size image, ColumnRange wanted);
 
 }  // namespace stereod

@@ -104,7 +104,7 @@ TEST_P(PublishedRegion, HasThePixelsOfTheWholeImage) {
 
 INSTANTIATE_TEST_SUITE_P(
     Pipeline, PublishedRegion,
-    testing::Combine(testing::Values("thesis", "fast", "robust"), testing::Values(1, 3),
+    testing::Combine(testing::Values("thesis", "fast", "robust", "dense"), testing::Values(1, 3),
                      testing::Values(PublishConfig{70, 30, 40, 31, 1, 1}, PublishConfig{0, 0, 0, 0, 2, 3},
                                      PublishConfig{100, 0, 0, 50, 3, 1}, PublishConfig{5, 113, 29, 0, 1, 2},
                                      PublishConfig{83, 47, 1, 1, 1, 1})));
@@ -131,11 +131,15 @@ TEST(PublishedPixels, RefusesARegionOutsideOfThePictures) {
 }
 
 TEST(PublishedPixels, AreMatchedWithoutTheRestOfTheirRows) {
-  MatcherOptions options = *matcher_preset("robust");
+  MatcherOptions options = *matcher_preset("fast");
   options.disparities = 64;
   const ColumnRange matched = columns_to_match(options, {640, 480}, {400, 420});
   EXPECT_GT(matched.first, 300);
   EXPECT_LT(matched.end, 500);
+  // The semi-global matcher's paths go along whole rows.
+  const ColumnRange all = columns_to_match(*matcher_preset("robust"), {640, 480}, {400, 420});
+  EXPECT_EQ(all.first, 0);
+  EXPECT_EQ(all.end, 640);
 }
 
 // The left image is whole, whatever is matched.

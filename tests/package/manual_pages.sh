@@ -12,7 +12,7 @@ checked=0
 }
 
 # options_of PROGRAM [COMMAND]
-options_of() { "$@" --help | grep -oE '^  [^ ].*' | grep -oE -- '(^  |,)(-[a-z],)?--[a-z][a-z-]*' | grep -oE -- '--[a-z-]+'; }
+options_of() { "$@" --help | grep -oE '^  [^ ].*' | grep -oE -- '(^  |,)(-[a-z],)?--[a-z][a-z0-9-]*' | grep -oE -- '--[a-z0-9-]+'; }
 
 check() {
   local page=$1 text option
@@ -20,7 +20,7 @@ check() {
   text=$(sed 's/\\-/-/g; s/\\f[BIR]//g' "$page")
   for option in $(options_of "$@"); do
     checked=$((checked + 1))
-    grep -qE -- "(^|[^a-z-])$option([^a-z-]|$)" <<<"$text" || {
+    grep -qE -- "(^|[^a-z0-9-])$option([^a-z0-9-]|$)" <<<"$text" || {
       echo "$(basename "$page") does not name $option of '${*##*/}'" >&2
       failed=1
     }

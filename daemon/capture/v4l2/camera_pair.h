@@ -82,7 +82,7 @@ class CameraPair {
 
     std::string device;  // found when it was last looked for; the other camera may not have it
     StreamFacts facts;
-    std::string bus;  // where it is, or was when it was last there
+    std::string bus;       // where it is, or was when it was last there
     bool running = false;  // started
     bool flowing = false;  // and frames come
   };
