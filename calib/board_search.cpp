@@ -31,11 +31,24 @@ void in_parallel(std::size_t count, Work&& work) {
   }
 }
 
+std::vector<std::size_t> sampled(const std::vector<PicturePair>& pictures) {
+  return evenly_spread(std::min(kSamples, pictures.size()), pictures.size());
+}
+
+// Whether the whole board is found in any of the sampled pictures.
+bool is_seen(const std::vector<PicturePair>& pictures, const Board& board) {
+  const auto places = sampled(pictures);
+  return std::any_of(places.begin(), places.end(), [&](std::size_t place) {
+    return find_board(pictures[place].left.view(), board, Effort::kThorough) ||
+           find_board(pictures[place].right.view(), board, Effort::kThorough);
+  });
+}
+
 // The board that the sampled pictures show, if any.
 std::optional<Board> board_in(const std::vector<PicturePair>& pictures) {
   std::map<std::pair<int, int>, int> votes;
   std::mutex mutex;
-  const auto places = evenly_spread(std::min(kSamples, pictures.size()), pictures.size());
+  const auto places = sampled(pictures);
   Progress progress("which board is it?", 2 * places.size());
   in_parallel(2 * places.size(), [&](std::size_t i) {
     const PicturePair& pair = pictures[places[i / 2]];
@@ -44,13 +57,18 @@ std::optional<Board> board_in(const std::vector<PicturePair>& pictures) {
     if (found) ++votes[{found->columns, found->rows}];
     progress.step();
   });
-  if (votes.empty()) return std::nullopt;
-  // The largest one seen more than once: often only a part of a board is found, but nothing adds a column.
-  const auto best = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.second > 1, a.first.first * a.first.second) <
+  // The largest one seen more than once, for often only a part of a board is found; but the edge of a board
+  // may pass for a further column, so it counts only if it is found when it is looked for.
+  std::vector<std::pair<std::pair<int, int>, int>> candidates(votes.begin(), votes.end());
+  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.second > 1, a.first.first * a.first.second) >
            std::pair(b.second > 1, b.first.first * b.first.second);
   });
-  return Board{best->first.first, best->first.second, 0};
+  for (const auto& [size, count] : candidates) {
+    const Board board{size.first, size.second, 0};
+    if (is_seen(pictures, board)) return board;
+  }
+  return std::nullopt;
 }
 
 PairSearch search(const PicturePair& pair, const Board& board) {
@@ -82,11 +100,7 @@ bool same_size(const Board& a, const Board& b) {
 void require_size(const std::vector<PicturePair>& pictures, const Board& board) {
   const auto there = board_in(pictures);
   if (!there || same_size(*there, board)) return;
-  if (there->columns * there->rows <= board.columns * board.rows) {
-    for (const std::size_t place : evenly_spread(std::min(kSamples, pictures.size()), pictures.size())) {
-      if (find_board(pictures[place].left.view(), board, Effort::kThorough)) return;
-    }
-  }
+  if (there->columns * there->rows <= board.columns * board.rows && is_seen(pictures, board)) return;
   throw CalibrationError("the pictures show a board of " + in_words(*there) + ", not " + in_words(board) +
                          "; say --board " + std::to_string(there->columns) + "x" +
                          std::to_string(there->rows) + " (inner corners are those where four squares meet)");

@@ -32,6 +32,11 @@ struct Flags {
   std::string board = "auto", square;
 };
 
+// Not to be taken for a board that was none.
+struct ExchangedError : CalibrationError {
+  using CalibrationError::CalibrationError;
+};
+
 // What was measured, with a board or without.
 struct Measured {
   double row_error_px = 0;
@@ -56,6 +61,11 @@ Measured with_board(const Calibration& calibration, const std::vector<PicturePai
     const BoardPose pose = solve_pose(calibration.left.camera, board, pair.corners.left);
     const PairCheck check = check_pair(calibration, board, pair.corners, pose);
     std::printf("%s: rows %.2f px apart\n", name.c_str(), check.row_error_px);
+    if (check.behind > 0.5) {
+      throw ExchangedError(
+          name +
+          ": by this calibration the board would be behind the cameras; are left and right exchanged?");
+    }
     result.row_error_px += check.row_error_px;
     result.scale_error += check.scale_error;
     count += 1;
@@ -143,6 +153,8 @@ Measured measure(const Flags& flags, const Calibration& calibration,
   if (!board) return without_board(calibration, pictures);
   try {
     return with_board(calibration, pictures, *board, flags.square);
+  } catch (const ExchangedError&) {
+    throw;
   } catch (const CalibrationError&) {
     // What looked like one, somewhere in a scene, was none.
     if (flags.board != "auto" || !flags.square.empty()) throw;

@@ -7,6 +7,7 @@
 #include "calib/commands.h"
 #include "calib/errors.h"
 #include "calib/exchange.h"
+#include "calib/text_file.h"
 #include "daemon/config/calibration_file.h"
 
 namespace stereod {
@@ -93,6 +94,10 @@ void add_export(CLI::App& app) {
       ->expected(2);
   command->callback([flags] {
     if (flags->ros.empty() && flags->opencv.empty()) throw UsageError("say what to write: --ros or --opencv");
+    std::vector<fs::path> files{flags->calibration};
+    files.insert(files.end(), flags->ros.begin(), flags->ros.end());
+    files.insert(files.end(), flags->opencv.begin(), flags->opencv.end());
+    require_distinct(files);
     const Calibration calibration = read_calibration(flags->calibration);
     if (!flags->ros.empty()) write_ros(flags->ros[0], flags->ros[1], calibration);
     if (!flags->opencv.empty()) write_opencv(flags->opencv[0], flags->opencv[1], calibration);

@@ -168,7 +168,7 @@ PairCheck check_pair(const Calibration& calibration, const Board& board, const B
   PairCheck check;
   const auto columns = static_cast<std::size_t>(board.columns);
   const std::size_t count = pair.left.size();
-  double squares = 0, rows = 0, offset = 0, n = 0;
+  double squares = 0, rows = 0, offset = 0, behind = 0, n = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const auto left = rectified_point(calibration.left, pair.left[i]);
     const auto right = rectified_point(calibration.right, pair.right[i]);
@@ -176,14 +176,17 @@ PairCheck check_pair(const Calibration& calibration, const Board& board, const B
     n += 1;
     rows += std::abs(left->y - right->y);
     offset += left->y - right->y;
+    const double disparity = left->x - right->x + disparity_offset_px(calibration);
+    behind += disparity < 0 ? 1 : 0;
     const Vector3 p =
         calibration.left.rotation * plus(in_left.rotation * board_point(board, i), in_left.translation_m);
     const double error = left->x - right->x - disparity_at(calibration, p.z);
     squares += error * error;
   }
-  if (n < 0.9 * static_cast<double>(count)) return {kNone, kNone, kNone, kNone};
+  if (n < 0.9 * static_cast<double>(count)) return {kNone, kNone, kNone, kNone, 0};
   check.row_error_px = rows / n;
   check.row_offset_px = offset / n;
+  check.behind = behind / n;
   check.disparity_error_px = std::sqrt(squares / n);
   // Both diagonals: the longest lengths that the board has, so noise weighs least.
   const auto measured = [&](std::size_t from, std::size_t to) {

@@ -50,6 +50,7 @@ struct PairCheck {
   double row_offset_px = 0;       ///< mean of row left − row right
   double disparity_error_px = 0;  ///< root mean square against a board of the true size in the best pose
   double scale_error = 0;         ///< measured size of the board / its true size − 1
+  double behind = 0;              ///< share of the corners that would lie behind the cameras
 };
 PairCheck check_pair(const Calibration& calibration, const Board& board, const BoardPair& pair,
                      const BoardPose& in_left);

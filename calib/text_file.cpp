@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <set>
 #include <string>
 #include <system_error>
 
@@ -23,6 +24,18 @@ void require_writable(const std::filesystem::path& file) {
   }
   if (::access(folder.c_str(), W_OK) != 0) {
     throw FileError(file.string() + ": cannot be written: " + std::strerror(errno));
+  }
+}
+
+void require_distinct(const std::vector<std::filesystem::path>& files) {
+  std::set<std::filesystem::path> seen;
+  for (const std::filesystem::path& file : files) {
+    std::error_code error;
+    const auto place = std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+    if (!seen.insert(error ? file : place).second) {
+      throw FileError(file.string() +
+                      ": is named twice, and would be overwritten; give each file a name of its own");
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 namespace stereod {
 
@@ -13,5 +14,9 @@ void write_text_file(const std::filesystem::path& file, std::string_view text);
 /// Throws FileError if a file of this name could not be written: its folder is not there, or it is a folder.
 /// For asking before long work.
 void require_writable(const std::filesystem::path& file);
+
+/// Throws FileError if two of the names are of one file, which would overwrite what is read or was just
+/// written.
+void require_distinct(const std::vector<std::filesystem::path>& files);
 
 }  // namespace stereod

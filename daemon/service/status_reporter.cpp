@@ -45,10 +45,11 @@ std::string KnockDetector::judge(const AlignmentFigures& figures) {
       "; was a camera knocked? 'stereo-calibrate check' measures it, if so calibrate again";
   if (figures.misalignment) {
     apart_ = figures.misalignment->row_error_px > (apart_ ? kTogether_px : kApart_px);
-    if (apart_)
-      return std::string("rows of the rectified pictures do not lie side by side any more") + kRemedy;
+    was_found_ = true;
   }
-  if (figures.misalignment) was_found_ = true;
+  // Also while too few points are found to tell: only rows that are seen to lie side by side are a reason to
+  // think so.
+  if (apart_) return std::string("rows of the rectified pictures do not lie side by side any more") + kRemedy;
   if (was_found_ && figures.searched >= kEnough && figures.found_share < kHardlyAny) {
     return std::string(
                "hardly anything of the left picture is found in the right one any more; is something before "

@@ -277,6 +277,59 @@ TEST_F(Program, ChecksWithABoard) {
   EXPECT_THAT(result.out, HasSubstr("too short"));
 }
 
+TEST_F(Program, ChecksWhichCameraIsWhich) {
+  const StereoCameras k = known_cameras(kImage);
+  write_calibration(file("true.yaml"), rectified_pair(k.left, k.right, k.pose));
+  const ProgramRun result =
+      run({"check", file("true.yaml"), "--left", right(0), right(1), "--right", left(0), left(1)});
+  EXPECT_EQ(result.status, 2) << result.out;
+  EXPECT_THAT(result.err, HasSubstr("are left and right exchanged?"));
+  EXPECT_THAT(result.out, Not(HasSubstr("verdict")));
+}
+
+TEST_F(Program, ExportDoesNotOverwriteWhatItReadsOrWrote) {
+  const StereoCameras k = known_cameras(kImage);
+  write_calibration(file("c.yaml"), rectified_pair(k.left, k.right, k.pose));
+  const std::string before = text_of(file("c.yaml"));
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"--opencv", file("c.yaml"), file("ex.yaml")},
+        std::vector<std::string>{"--ros", file("l.yaml"), file("./c.yaml")},
+        std::vector<std::string>{"--ros", file("same.yaml"), file("same.yaml")}}) {
+    std::vector<std::string> arguments{"export", file("c.yaml")};
+    arguments.insert(arguments.end(), names.begin(), names.end());
+    const ProgramRun result = run(arguments);
+    EXPECT_EQ(result.status, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("is named twice"));
+  }
+  EXPECT_EQ(text_of(file("c.yaml")), before);
+  EXPECT_FALSE(fs::exists(file("l.yaml")));
+  const ProgramRun solved = run({"solve", pairs_->path().string(), "--square", "25mm", "-o", file("c.yaml"),
+                                 "--report", file("c.yaml")});
+  EXPECT_EQ(solved.status, 2);
+  EXPECT_EQ(text_of(file("c.yaml")), before);
+}
+
+// In these pictures the edge of the board passes for a further column of squares.
+TEST_F(Program, TheEdgeOfABoardIsNoColumn) {
+  const char* set = std::getenv("STEREO_DATASETS");
+  const fs::path datasets =
+      set != nullptr ? fs::path(set) : fs::path(STEREOD_SOURCE_DIR) / ".." / "shared" / "datasets";
+  const fs::path pictures = datasets / "rig_stereopi" / "calib";
+  if (!fs::exists(pictures)) GTEST_SKIP() << pictures << " is not here";
+  std::vector<std::string> arguments{"solve", "--square", "25mm", "-o", file("c.yaml"), "--left"};
+  const std::vector<std::string> numbers{"09", "13", "16", "17", "18"};
+  for (const std::string& n : numbers) arguments.push_back((pictures / ("left_" + n + ".png")).string());
+  arguments.push_back("--right");
+  for (const std::string& n : numbers) arguments.push_back((pictures / ("right_" + n + ".png")).string());
+  for (const char* board : {"9x6", "auto"}) {
+    std::vector<std::string> with_board = arguments;
+    with_board.insert(with_board.end(), {"--board", board});
+    const ProgramRun result = run(with_board);
+    EXPECT_THAT(result.out, HasSubstr("9×6")) << board << ": " << result.err;
+    EXPECT_NE(result.status, 2) << board << ": " << result.err;
+  }
+}
+
 TEST_F(Program, BoardsAreFoundAgainInWhatIsPrinted) {
   if (std::system("command -v pdftoppm >/dev/null") != 0)
     GTEST_SKIP() << "pdftoppm (poppler-utils) is not here";

@@ -103,6 +103,22 @@ TEST(AlignmentMonitor, KnowsNothingAtFirst) {
   EXPECT_EQ(KnockDetector().judge(monitor.figures()), "");
 }
 
+// That too few points are found for a while says nothing of how the rows lie.
+TEST(KnockDetector, KeepsItsVerdictUntilRowsAreSeenTogether) {
+  KnockDetector detector;
+  AlignmentFigures figures;
+  figures.misalignment = Misalignment{100, 4, 4, 4, 0};
+  EXPECT_NE(detector.judge(figures), "");
+  figures.misalignment.reset();
+  EXPECT_NE(detector.judge(figures), "");
+  figures.misalignment = Misalignment{100, 0.8, 0.8, 1, 0};
+  EXPECT_NE(detector.judge(figures), "") << "more than when they lie together";
+  figures.misalignment = Misalignment{100, 0.2, 0.2, 0.3, 0};
+  EXPECT_EQ(detector.judge(figures), "");
+  figures.misalignment.reset();
+  EXPECT_EQ(detector.judge(figures), "");
+}
+
 fs::path datasets() {
   if (const char* set = std::getenv("STEREO_DATASETS")) return set;
   return fs::path(STEREOD_SOURCE_DIR) / ".." / "shared" / "datasets";

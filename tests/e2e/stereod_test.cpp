@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "daemon/client/stereod_client.h"
+#include "daemon/config/calibration_file.h"
 #include "daemon/imagefile/pfm_file.h"
 #include "daemon/imagefile/read_image.h"
 #include "daemon/imagefile/write_image.h"
@@ -331,6 +332,9 @@ class StereodBadStart : public StereodTest, public testing::WithParamInterface<B
 // With --check-config and without: the same sentence, the status that keeps systemd from trying again.
 TEST_P(StereodBadStart, IsOneSentenceAndStatus78) {
   write_recorded_pairs(directory_.path(), kSize, 1);
+  Calibration elsewhere = read_calibration(directory_ / "calibration.yaml");
+  elsewhere.left.camera.cx = 999'999;
+  write_calibration(directory_ / "elsewhere.yaml", elsewhere);
   const std::filesystem::path file = directory_ / "bad.yaml";
   std::ofstream(file) << GetParam().config;
   for (const bool check : {true, false}) {
@@ -354,6 +358,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "cameras: {source: replay, replay: {left: gone.png, right: right_00.png}}\n", "gone.png"},
         BadStart{"OtherCalibrationSize", "cameras: {source: synthetic}\ncalibration: calibration.yaml\n",
                  "calibration.yaml: the calibration is for images of 320×240, the cameras give 640×480"},
+        BadStart{"CalibrationOfNoCamera",
+                 "cameras: {source: synthetic, synthetic: {width: 320, height: 240}}\ncalibration: "
+                 "elsewhere.yaml\n",
+                 "leaves only 0.0 % of the left rectified picture"},
         BadStart{"MissingCalibration", "cameras: {source: synthetic}\ncalibration: gone.yaml\n", "gone.yaml"},
         BadStart{"ImpossibleIsa",
                  "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nmatcher: {isa: " +
