@@ -51,7 +51,7 @@ Measured with_board(const Calibration& calibration, const std::vector<PicturePai
   const bool sized = board.square_m > 0;
   if (!sized) board.square_m = 0.025;  // rows do not depend on it
   Measured result;
-  double count = 0;
+  double count = 0, behind = 0;
   for (std::size_t i = 0; const PairSearch& pair : search_boards(pictures, board)) {
     const std::string& name = pictures[i++].name;
     if (!pair.problem.empty()) {
@@ -61,17 +61,17 @@ Measured with_board(const Calibration& calibration, const std::vector<PicturePai
     const BoardPose pose = solve_pose(calibration.left.camera, board, pair.corners.left);
     const PairCheck check = check_pair(calibration, board, pair.corners, pose);
     std::printf("%s: rows %.2f px apart\n", name.c_str(), check.row_error_px);
-    if (check.behind > 0.5) {
-      throw ExchangedError(
-          name +
-          ": by this calibration the board would be behind the cameras; are left and right exchanged?");
-    }
+    behind += check.behind > 0.5 ? 1 : 0;
     result.row_error_px += check.row_error_px;
     result.scale_error += check.scale_error;
     count += 1;
   }
   if (count == 0)
     throw CalibrationError("no pair shows the whole board in both pictures; there is nothing to check");
+  if (behind == count) {
+    throw ExchangedError(
+        "by this calibration the board is behind the cameras in every pair; are left and right exchanged?");
+  }
   result.row_error_px /= count;
   result.scale_error /= count;
   result.scale_known = sized;

