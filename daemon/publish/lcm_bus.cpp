@@ -27,6 +27,9 @@ bool LcmBus::publish(const char* channel, const void* data, std::size_t size) no
   const std::size_t channel_length = std::strlen(channel);
   // Refused here because LCM would print a line each time.
   if (channel_length > LCM_MAX_CHANNEL_NAME_LENGTH || size > LCM_MAX_MESSAGE_SIZE) return false;
+  // LCM writes a log in pieces and without a lock of its own; the network has one.
+  std::unique_lock<std::mutex> whole_event(file_mutex_, std::defer_lock);
+  if (!is_udp_) whole_event.lock();
   errno = 0;
   if (lcm_publish(lcm_.get(), channel, data, static_cast<unsigned int>(size)) != 0) return false;
   // LCM 1.3.1 reports success for a fragmented message whatever became of its fragments; errno still knows.

@@ -1,6 +1,8 @@
 // The message bus that is LCM.
 #pragma once
 
+#include <mutex>
+
 #include "daemon/publish/lcm_handle.h"
 #include "daemon/publish/message_bus.h"
 
@@ -23,6 +25,7 @@ class LcmBus : public MessageBus {
  private:
   LcmHandle lcm_;
   bool is_udp_ = false;
+  std::mutex file_mutex_;
 };
 
 }  // namespace stereod

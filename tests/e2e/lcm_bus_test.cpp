@@ -1,20 +1,24 @@
 #include "daemon/publish/lcm_bus.h"
 
 #include <gtest/gtest.h>
+#include <lcm/eventlog.h>
 #include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
+#include <memory>
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "daemon/tools/tap/lcm_receiver.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/network.h"
+#include "tests/support/temporary_directory.h"
 
 namespace stereod {
 namespace {
@@ -132,6 +136,33 @@ TEST(LcmBus, AllocatesNothingToPublish) {
   const auto allocations = counter.count();
   EXPECT_TRUE(sent);
   EXPECT_EQ(allocations, 0U);
+}
+
+// Disparities, left images and the status come from threads of their own.
+TEST(LcmBus, ThreadsDoNotMixTheirMessagesInALog) {
+  constexpr int kThreads = 4, kMessages = 2000;
+  const TemporaryDirectory directory;
+  const std::string file = (directory / "log").string();
+  {
+    LcmBus bus("file://" + file + "?mode=w");
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < kThreads; ++t) {
+      threads.emplace_back([&bus, t] {
+        const std::string data(static_cast<std::size_t>(100 + 37 * t), static_cast<char>('a' + t));
+        for (int i = 0; i < kMessages; ++i) bus.publish("TEST", data.data(), data.size());
+      });
+    }
+  }
+  const std::unique_ptr<lcm_eventlog_t, decltype(&lcm_eventlog_destroy)> log(
+      lcm_eventlog_create(file.c_str(), "r"), lcm_eventlog_destroy);
+  ASSERT_TRUE(log);
+  int whole = 0;
+  while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log.get())) {
+    const std::string data(static_cast<const char*>(event->data), static_cast<std::size_t>(event->datalen));
+    whole += data.find_first_not_of(data[0]) == data.npos ? 1 : 0;
+    lcm_eventlog_free_event(event);
+  }
+  EXPECT_EQ(whole, kThreads * kMessages);
 }
 
 TEST(LcmBus, RefusesAChannelThatIsTooLong) {
