@@ -61,6 +61,7 @@ std::optional<std::int64_t> PhaseAlignment::common_period() const noexcept {
 
 void PhaseAlignment::measure(std::int64_t time_ns) noexcept {
   const auto period = common_period();
+  if (!period && period_of(left_) && period_of(right_)) lose_phase();
   if (!period || state_ == PhaseState::kRestarting) return;
   if (state_ == PhaseState::kWaiting) state_ = PhaseState::kMeasuring;
   const std::int64_t ahead = wrapped(time_ns - of(opposite(to_restart_)).last_ns, *period);
@@ -72,6 +73,14 @@ void PhaseAlignment::measure(std::int64_t time_ns) noexcept {
   skew_count_ = 0;
   skew_ns_ = wrapped(first + median(skews_), *period);
   judge(*skew_ns_, *period, time_ns);
+}
+
+// One has changed its rate: what was reached holds no more.
+void PhaseAlignment::lose_phase() noexcept {
+  forget_samples();
+  skew_ns_.reset();
+  was_aligned_ = false;
+  if (state_ != PhaseState::kRestarting) state_ = PhaseState::kWaiting;
 }
 
 void PhaseAlignment::judge(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t now_ns) noexcept {

@@ -87,6 +87,7 @@ class PhaseAlignment {
   void judge(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t now_ns) noexcept;
   void want_restart(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t now_ns) noexcept;
   void forget_samples() noexcept;
+  void lose_phase() noexcept;
 
   PhaseOptions options_;
   Camera left_, right_;

@@ -27,7 +27,7 @@ struct Rig {
       now = next;
       if (left_ns <= right_ns) {
         phase.add(Side::kLeft, left_ns + jitter());
-        left_ns += kPeriod;
+        left_ns += left_period_ns;
         ++left_frames;
       } else {
         phase.add(Side::kRight, right_ns + jitter());
@@ -59,6 +59,7 @@ struct Rig {
   std::int64_t now = 1000 * kSecond;
   std::int64_t left_ns = now + 7 * kMs;
   std::int64_t right_ns = now + 23 * kMs;  // 16 ms later
+  std::int64_t left_period_ns = kPeriod;
   std::int64_t drift_ppb = 0;
   int noise_us = 0;
   int left_restarts = 0, right_restarts = 0, left_frames = 0, right_frames = 0;
@@ -201,6 +202,19 @@ TEST(PhaseAlignment, CamerasOfDifferentRatesAreLeftAlone) {
   EXPECT_EQ(phase.state(), PhaseState::kWaiting);
   EXPECT_FALSE(phase.restart_wanted());
   EXPECT_FALSE(phase.skew_ns());
+}
+
+TEST(PhaseAlignment, ACameraThatChangesItsRateHasNoPhaseAnyMore) {
+  Rig rig({});
+  rig.run(10 * kSecond);
+  ASSERT_EQ(rig.phase.state(), PhaseState::kAligned);
+  rig.left_period_ns = 2 * kPeriod;
+  rig.run(10 * kSecond);
+  EXPECT_EQ(rig.phase.state(), PhaseState::kWaiting);
+  EXPECT_FALSE(rig.phase.skew_ns());
+  rig.left_period_ns = kPeriod;
+  rig.run(10 * kSecond);
+  EXPECT_EQ(rig.phase.state(), PhaseState::kAligned);
 }
 
 TEST(PhaseAlignment, OffOnlyMeasures) {

@@ -136,6 +136,7 @@ TEST_F(V4l2Identity, ACameraThatMayNotBeOpenedIsNotSaidToBeMissing) {
 
 TEST_F(V4l2Identity, TheListNamesWhatTheConfigurationNeeds) {
   bench_.left_camera->controls = {{V4L2_CID_GAIN, "Gain", 0, 100, 10, 20}};
+  bench_.left_camera->card = "Fake Camera\x1b[2J";
   bench_.right_camera->capture = false;
   const std::string list = list_cameras(bench_.video);
   for (const char* part :
@@ -143,6 +144,8 @@ TEST_F(V4l2Identity, TheListNamesWhatTheConfigurationNeeds) {
         "/dev/video0 (may change)", "usb-0000:00:14.0-1", "64×48 at 30", "20  (0 to 100, by itself 10)"}) {
     EXPECT_THAT(list, HasSubstr(part));
   }
+  EXPECT_THAT(list, testing::Not(HasSubstr("\x1b")))
+      << "what a device calls itself does not reach the terminal";
   EXPECT_THAT(list, testing::Not(HasSubstr("RIGHT"))) << "a metadata node is no camera";
   bench_.left_camera->faults[kFakeOpen] = {EACCES, 1};
   EXPECT_THAT(list_cameras(bench_.video), HasSubstr("/dev/video0 cannot be opened: Permission denied"));

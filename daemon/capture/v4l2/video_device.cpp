@@ -15,7 +15,11 @@ constexpr std::uint32_t kLongestList = 256;
 
 std::string text_of(const __u8* field, std::size_t size) {
   const char* text = reinterpret_cast<const char*>(field);
-  return {text, strnlen(text, size)};
+  std::string name(text, strnlen(text, size));
+  // It goes to terminals and logs, and comes from whatever was plugged in.
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
+  std::replace_if(name.begin(), name.end(), is_control, '?');
+  return name;
 }
 
 v4l2_buffer buffer_of(std::uint32_t index) {
