@@ -7,6 +7,7 @@ udevadm settle
 left=/dev/video20 right=/dev/video21
 fps=10 size=320x180
 start() { start_stereod $left $right "$1" "align: never
+    exposure: auto
     controls: { brightness: 90, gain: 60 }"; }
 
 echo "=== stamps"
