@@ -23,11 +23,13 @@ suite() {
   local name=$1
   shift
   printf '\n=== %s\n' "$name"
+  local begin=$SECONDS
   if "$@"; then
     passed+=("$name")
+    printf '=== %s: passed in %d s\n' "$name" $((SECONDS - begin))
   else
     failed+=("$name")
-    printf '=== %s: FAILED\n' "$name"
+    printf '=== %s: FAILED after %d s\n' "$name" $((SECONDS - begin))
   fi
 }
 

@@ -52,8 +52,11 @@ class ClientE2e : public testing::Test {
   /// Handles messages until something is so; false if it is not within a minute.
   static bool handle_until(StereoClient& client, const std::function<bool()>& is_so) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!is_so() && std::chrono::steady_clock::now() < deadline) client.handle(100);
-    return is_so();
+    while (!is_so()) {
+      if (std::chrono::steady_clock::now() > deadline) return false;
+      client.handle(100);
+    }
+    return true;
   }
 
   TemporaryDirectory directory_;
