@@ -13,6 +13,11 @@ die() {
   exit 1
 }
 
+# What has been compiled before is not compiled again.
+if [[ -z ${CMAKE_CXX_COMPILER_LAUNCHER:-} ]]; then
+  export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_DIR=${XDG_CACHE_HOME:-$HOME/.cache}/stereod/ccache
+fi
+
 # Tests that send LCM messages do so where nobody else listens. Without that they use the machine's network, or skip
 # themselves and say why.
 network=()

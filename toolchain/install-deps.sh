@@ -17,6 +17,7 @@ build_packages=(
 )
 test_packages=(libgtest-dev libgmock-dev libopencv-dev poppler-utils libcpp-httplib-dev nftables chromium
   liblcm-java libjchart2d-java default-jre default-jdk-headless xvfb xdotool  # stereod-spy
+  ccache                       # the tests are built in several ways, and again
 )
 # The Aloe photographs. Some mirrors do without documentation, and so can we.
 optional_packages=(opencv-doc)
