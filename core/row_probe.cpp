@@ -26,26 +26,28 @@ RowProbe::RowProbe(Size image, int min_disparity, int disparities)
     : image_(image),
       min_disparity_(min_disparity),
       disparities_(disparities),
-      reach_(std::clamp(image.height / 20, 4, 24)),
+      far_(std::clamp(image.height / 20, 4, 24)),
+      reach_(far_),
       stride_((image.width + 127) / 64 * 64) {
   if (image_.width < kFewestColumns || image_.height < kFewestRows) return;
   left_ = AlignedBuffer<std::uint8_t>(as_size(stride_ * kRows));
-  right_ = AlignedBuffer<std::uint8_t>(as_size(stride_ * (kRows + 2 * reach_)));
+  right_ = AlignedBuffer<std::uint8_t>(as_size(stride_ * (kRows + 2 * far_)));
   rectified_ = AlignedBuffer<std::uint8_t>(as_size(3 * stride_));
   sums_ = AlignedBuffer<std::uint16_t>(as_size(stride_));
   across_ = AlignedBuffer<std::uint16_t>(as_size(stride_));
   down_ = AlignedBuffer<std::uint16_t>(as_size(stride_));
-  costs_ = AlignedBuffer<std::uint32_t>(as_size((2 * reach_ + 1) * disparities_));
+  costs_ = AlignedBuffer<std::uint32_t>(as_size((2 * far_ + 1) * disparities_));
 }
 
-RowProbe::Result RowProbe::probe(const ProbedFrame& left, const ProbedFrame& right,
+RowProbe::Result RowProbe::probe(const ProbedFrame& left, const ProbedFrame& right, Reach reach,
                                  std::span<RowMatch, kPatches> matches) noexcept {
   Result result;
   if (left_.size() == 0) return result;
+  reach_ = reach == Reach::kNear ? kNear : far_;
   // Multiples of the golden ratio, as parts of a whole, cover every part of the image soon and evenly.
   constexpr std::uint32_t kGolden = 0x9E3779B9;
-  const auto tops = static_cast<std::uint64_t>(image_.height - kRows - 2 * reach_ - 1);
-  const int top = reach_ + 1 + static_cast<int>(turn_++ * kGolden * tops >> 32);
+  const auto tops = static_cast<std::uint64_t>(image_.height - kRows - 2 * far_ - 1);
+  const int top = far_ + 1 + static_cast<int>(turn_++ * kGolden * tops >> 32);
   smooth_rows(left, {top, top + kRows}, left_.data());
   smooth_rows(right, {top - reach_, top + kRows + reach_}, right_.data());
   measure_texture();
@@ -183,7 +185,11 @@ bool RowProbe::search(int x, const Tone& from, const Tone& to, Place& best, bool
     }
   }
   absent = 2 * least > static_cast<std::uint32_t>(contrast);
-  if (absent || best.y == 0 || best.y == lines - 1) return false;
+  if (absent) return false;
+  if (best.y == 0 || best.y == lines - 1) {  // it may lie beyond
+    absent = reach_ == kNear;
+    return false;
+  }
   std::uint32_t rival = kNoCost;
   for (int line = 0; line < lines; ++line) {
     const std::uint32_t* costs = costs_.data() + line * places;

@@ -21,28 +21,33 @@ struct ProbedFrame {
 
 /// Takes one strip of rows of each frame, another one each time, rectifies it, and in each third of it
 /// searches the best textured patch of the left picture in the right one: along the row as the matcher does,
-/// but also some rows up and down (a twentieth of the height, 4 to 24). What is found, and nowhere else
-/// nearly as well, is refined to fractions of a pixel (Lucas and Kanade 1981, for both directions, with
-/// brightness and contrast taken out). After construction it allocates nothing.
+/// but also some rows up and down. What is found, and nowhere else nearly as well, is refined to fractions of
+/// a pixel (Lucas and Kanade 1981, for both directions, with brightness and contrast taken out). After
+/// construction it allocates nothing.
 class RowProbe {
  public:
   static constexpr int kPatches = 3;
+
+  /// How many rows up and down it searches: two, enough to see that all is well and several times cheaper, or
+  /// a twentieth of the height (4 to 24).
+  enum class Reach { kNear, kFar };
 
   RowProbe(Size image, int min_disparity, int disparities);
 
   /// What became of the patches of a frame.
   struct Result {
     int found = 0;   ///< as many matches were written
-    int absent = 0;  ///< have texture, but nothing in the right picture is like them
+    int absent = 0;  ///< have texture, but nothing within reach is like them
   };
 
   /// Writes what it found to the front of `matches`. Nothing is ever found in pictures too small for it: less
   /// than 48 columns or 24 rows.
-  Result probe(const ProbedFrame& left, const ProbedFrame& right,
+  Result probe(const ProbedFrame& left, const ProbedFrame& right, Reach reach,
                std::span<RowMatch, kPatches> matches) noexcept;
 
  private:
   static constexpr int kColumns = 16, kRows = 8;  // of a patch
+  static constexpr int kNear = 2;                 // rows up and down
 
   struct Place {
     int x, y;  // of a patch's upper left pixel
@@ -64,14 +69,15 @@ class RowProbe {
 
   Size image_;
   int min_disparity_, disparities_;
-  int reach_;                                   // rows up and down
+  int far_;                                     // rows up and down
+  int reach_;                                   // the same, of this time
   std::ptrdiff_t stride_;                       // of both strips
   std::uint32_t turn_ = 0;                      // how often it was asked
   AlignedBuffer<std::uint8_t> rectified_;       // three rows
   AlignedBuffer<std::uint16_t> sums_;           // a row
-  AlignedBuffer<std::uint8_t> left_, right_;    // kRows, and kRows + 2·reach_ rows
+  AlignedBuffer<std::uint8_t> left_, right_;    // kRows, and kRows + 2·far_ rows
   AlignedBuffer<std::uint16_t> across_, down_;  // sums over a column of the left strip of |differences|
-  AlignedBuffer<std::uint32_t> costs_;          // [2·reach_ + 1][disparities_]
+  AlignedBuffer<std::uint32_t> costs_;          // [2·far_ + 1][disparities_]
 };
 
 }  // namespace stereod

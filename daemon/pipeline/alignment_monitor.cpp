@@ -20,37 +20,80 @@ std::int64_t thread_cpu_ns() noexcept {
 AlignmentMonitor::AlignmentMonitor(Size image, int min_disparity, int disparities)
     : image_(image), probe_(image, min_disparity, disparities) {}
 
+// Half is put by, as long as there is less than what kSaved such frames earn.
+void AlignmentMonitor::earn(double ns) noexcept {
+  constexpr double kSaved = 400;
+  const double put_by = std::clamp(kSaved * ns - saved_ns_, 0.0, ns / 2);
+  saved_ns_ += put_by;
+  purse_ns_ = std::min(purse_ns_ + ns - put_by, kSaved * ns);
+}
+
+bool AlignmentMonitor::may_spend(RowProbe::Reach reach) const noexcept {
+  return purse_ns_ > 0 || (reach == RowProbe::Reach::kFar && purse_ns_ + saved_ns_ > 0);
+}
+
+void AlignmentMonitor::spend(double ns, RowProbe::Reach reach) noexcept {
+  purse_ns_ -= ns;
+  if (reach == RowProbe::Reach::kFar && purse_ns_ < 0) {
+    const double taken = std::min(saved_ns_, -purse_ns_);
+    saved_ns_ -= taken, purse_ns_ += taken;
+  }
+}
+
+void AlignmentMonitor::search_far() noexcept {
+  reach_ = RowProbe::Reach::kFar;
+  far_since_ = count_;
+}
+
+void AlignmentMonitor::remember(const Point& point) noexcept {
+  points_[count_++ % kPoints] = point;
+  if (reach_ == RowProbe::Reach::kFar) return;
+  const double found = point.found ? 1 : 0;
+  found_lately_ += (found - found_lately_) / 12;
+  found_usually_ += (found - found_usually_) / 240;
+  if (found_lately_ < found_usually_ / 2) search_far();
+}
+
 void AlignmentMonitor::frame_matched(const ProbedFrame& left, const ProbedFrame& right,
                                      std::int64_t match_ns) noexcept {
   const double earned = kShare * static_cast<double>(match_ns);
-  credit_ns_ += earned;
-  std::array<RowMatch, RowProbe::kPatches> matches;
-  RowProbe::Result result;
-  std::int64_t spent = 0, now = 0;
-  if (credit_ns_ > 0) {
-    const std::int64_t begin = thread_cpu_ns();
-    result = probe_.probe(left, right, matches);
-    spent = thread_cpu_ns() - begin;
-    now = monotonic_ns();
-    // What the machine took from a thread meanwhile is not to be paid for with minutes of blindness.
-    constexpr double kLargestDebt = 200;  // frames
-    credit_ns_ = std::max(credit_ns_ - static_cast<double>(spent), -kLargestDebt * earned);
+  earn(earned);
+  RowProbe::Reach reach;
+  {
+    const std::lock_guard lock(mutex_);
+    matched_ns_ += match_ns;
+    reach = reach_;
   }
+  if (!may_spend(reach)) return;
+  std::array<RowMatch, RowProbe::kPatches> matches;
+  const std::int64_t begin = thread_cpu_ns();
+  const RowProbe::Result result = probe_.probe(left, right, reach, matches);
+  const std::int64_t spent = thread_cpu_ns() - begin;
+  spend(static_cast<double>(spent), reach);
+  // What the machine took from a thread meanwhile is not to be paid for with minutes of blindness.
+  constexpr double kLargestDebt = 200;  // frames
+  purse_ns_ = std::max(purse_ns_, -kLargestDebt * earned);
+
+  const std::int64_t now = monotonic_ns();
   const std::lock_guard lock(mutex_);
-  spent_ns_ += spent, matched_ns_ += match_ns;
-  for (int i = 0; i < result.found; ++i) remember({now, true, matches[static_cast<std::size_t>(i)]});
-  for (int i = 0; i < result.absent; ++i) remember({now, false, {}});
+  spent_ns_ += spent;
+  // What was found with another reach than the present one belongs to neither.
+  for (int i = 0; i < result.found && reach == reach_; ++i)
+    remember({now, true, matches[static_cast<std::size_t>(i)]});
+  for (int i = 0; i < result.absent && reach == reach_; ++i) remember({now, false, {}});
 }
 
-AlignmentFigures AlignmentMonitor::figures() const {
+AlignmentFigures AlignmentMonitor::figures() {
   std::vector<Point> newest;
-  newest.reserve(kPoints);  // not while the matching thread may wait
+  newest.reserve(kPoints);        // not while the matching thread may wait
+  std::size_t of_far_search = 0;  // of the newest
   AlignmentFigures figures;
   {
     const std::lock_guard lock(mutex_);
     for (std::size_t back = 1; back <= std::min(count_, kPoints); ++back) {
       newest.push_back(points_[(count_ - back) % kPoints]);
     }
+    if (reach_ == RowProbe::Reach::kFar) of_far_search = count_ - far_since_;
     if (matched_ns_ > 0)
       figures.cost_share = static_cast<double>(spent_ns_) / static_cast<double>(matched_ns_);
   }
@@ -58,7 +101,9 @@ AlignmentFigures AlignmentMonitor::figures() const {
   std::vector<RowMatch> found;
   for (const Point& point : newest) {
     const double age_s = static_cast<double>(now - point.at_ns) * 1e-9;
-    if (age_s > kLongest_s || (age_s > kWindow_s && (found.size() >= kEnough || figures.searched >= kMany)))
+    const bool enough = found.size() >= kEnough;
+    if (age_s > kLongest_s || (age_s > kWindow_s && (enough || figures.searched >= kMany))) break;
+    if (of_far_search > 0 && figures.searched >= of_far_search && (enough || figures.searched >= kManyFar))
       break;
     ++figures.searched;
     if (point.found) found.push_back(point.match);
@@ -67,6 +112,16 @@ AlignmentFigures AlignmentMonitor::figures() const {
     figures.found_share = static_cast<double>(found.size()) / static_cast<double>(figures.searched);
   }
   figures.misalignment = misalignment(found, image_);
+
+  constexpr double kTogether_px = 1;  // of a part: from there on, rows may lie beyond what a near search sees
+  const std::lock_guard lock(mutex_);
+  const bool together = figures.misalignment && figures.misalignment->worst_px < kTogether_px;
+  if (reach_ == RowProbe::Reach::kNear) {
+    if (figures.misalignment && !together) search_far();
+  } else if (together && figures.searched <= of_far_search) {
+    reach_ = RowProbe::Reach::kNear;
+    found_lately_ = found_usually_ = figures.found_share;
+  }
   return figures;
 }
 

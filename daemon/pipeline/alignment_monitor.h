@@ -20,23 +20,27 @@ struct AlignmentFigures {
 };
 
 /// Probes a frame now and then, so seldom that it stays below kShare of the time that matching takes,
-/// whatever the CPU. Remembers what was found in the last kWindow_s, or longer where that were few points.
+/// whatever the CPU. While the rows lie side by side it looks near them only, and puts by half of that time;
+/// once the points that it looks for are gone, it searches far with all that it has saved, and only that
+/// counts then. Remembers what was found in the last kWindow_s, or longer where that were few points.
 class AlignmentMonitor {
  public:
-  static constexpr double kShare = 0.05;
+  static constexpr double kShare = 0.02;
 
   AlignmentMonitor(Size image, int min_disparity, int disparities);
 
   /// A frame whose matching took `match_ns`. One thread; waits for nothing but figures() being read.
   void frame_matched(const ProbedFrame& left, const ProbedFrame& right, std::int64_t match_ns) noexcept;
 
-  AlignmentFigures figures() const;
+  /// To be asked about once a second: it also decides from them how far to search from now on.
+  AlignmentFigures figures();
 
  private:
   static constexpr std::size_t kPoints = 1024;
   static constexpr double kWindow_s = 4, kLongest_s = 30;
   static constexpr std::size_t kEnough = 60;  // points found; with fewer in the window older ones count too,
   static constexpr std::size_t kMany = 300;   // if so many were searched, not
+  static constexpr std::size_t kManyFar = 120;
 
   struct Point {
     std::int64_t at_ns;
@@ -44,14 +48,21 @@ class AlignmentMonitor {
     RowMatch match;
   };
 
-  void remember(const Point& point) noexcept { points_[count_++ % kPoints] = point; }
+  void remember(const Point& point) noexcept;
+  void earn(double ns) noexcept;
+  bool may_spend(RowProbe::Reach reach) const noexcept;
+  void spend(double ns, RowProbe::Reach reach) noexcept;
+  void search_far() noexcept;
 
   Size image_;
   RowProbe probe_;
-  double credit_ns_ = 0;
+  double purse_ns_ = 0, saved_ns_ = 0;  // time that probing may take; of the matching thread alone
   mutable std::mutex mutex_;
   std::array<Point, kPoints> points_{};  // a ring
   std::size_t count_ = 0;
+  RowProbe::Reach reach_ = RowProbe::Reach::kFar;
+  std::size_t far_since_ = 0;                    // count_ when it began to search far, the last time
+  double found_lately_ = 0, found_usually_ = 0;  // share of the points searched near
   std::int64_t spent_ns_ = 0, matched_ns_ = 0;
 };
 

@@ -59,7 +59,8 @@ struct Probed {
   int absent = 0;
 };
 
-Probed probed(const GreyImage& left, const GreyImage& right, int frames = 100) {
+Probed probed(const GreyImage& left, const GreyImage& right, int frames = 100,
+              RowProbe::Reach reach = RowProbe::Reach::kFar) {
   const Size size = left.size();
   const RectifyMap map = RectifyMap::identity({size, left.view().stride(), 1});
   const ValidityMask mask = map.mask();
@@ -67,7 +68,8 @@ Probed probed(const GreyImage& left, const GreyImage& right, int frames = 100) {
   Probed all;
   for (int frame = 0; frame < frames; ++frame) {
     std::array<RowMatch, RowProbe::kPatches> matches;
-    const RowProbe::Result result = probe.probe({map, mask, left.row(0)}, {map, mask, right.row(0)}, matches);
+    const RowProbe::Result result =
+        probe.probe({map, mask, left.row(0)}, {map, mask, right.row(0)}, reach, matches);
     all.matches.insert(all.matches.end(), matches.begin(), matches.begin() + result.found);
     all.absent += result.absent;
   }
@@ -89,6 +91,26 @@ TEST(RowProbe, MeasuresByHowManyRowsPicturesAreApart) {
       EXPECT_NEAR(match.row_offset_px, -down, 0.5);
       EXPECT_NEAR(match.disparity_px, kDisparity, 0.5);
     }
+  }
+}
+
+// What a near search finds is the same; what lies beyond it is missed, not mistaken.
+TEST(RowProbe, SearchesNearWhereThatWillDo) {
+  GreyImage left(kSize), right(kSize);
+  for (const double down : {0.0, 0.4, -1.2}) {
+    draw(left, right, [down](int) { return down; });
+    const Probed all = probed(left, right, 100, RowProbe::Reach::kNear);
+    EXPECT_GT(all.matches.size(), 150U) << down;
+    EXPECT_LT(all.absent, 30) << down;
+    const auto found = misalignment(all.matches, kSize);
+    ASSERT_TRUE(found.has_value()) << down;
+    EXPECT_NEAR(found->row_offset_px, -down, 0.05);
+  }
+  for (const double down : {3.0, -9.3}) {
+    draw(left, right, [down](int) { return down; });
+    const Probed all = probed(left, right, 100, RowProbe::Reach::kNear);
+    EXPECT_LT(all.matches.size(), 10U) << down;
+    EXPECT_GT(all.absent, 100) << down;
   }
 }
 
@@ -147,9 +169,10 @@ TEST(RowProbe, LooksOnlyWherePixelsHaveASource) {
   const ValidityMask none(kSize, [](int, int) { return false; });
   RowProbe probe(kSize, 0, 48);
   for (int frame = 0; frame < 50; ++frame) {
+    const auto reach = frame % 2 == 0 ? RowProbe::Reach::kNear : RowProbe::Reach::kFar;
     std::array<RowMatch, RowProbe::kPatches> matches;
-    EXPECT_EQ(probe.probe({map, mask, left.row(0)}, {map, none, right.row(0)}, matches).found, 0);
-    EXPECT_EQ(probe.probe({map, none, left.row(0)}, {map, mask, right.row(0)}, matches).found, 0);
+    EXPECT_EQ(probe.probe({map, mask, left.row(0)}, {map, none, right.row(0)}, reach, matches).found, 0);
+    EXPECT_EQ(probe.probe({map, none, left.row(0)}, {map, mask, right.row(0)}, reach, matches).found, 0);
   }
 }
 

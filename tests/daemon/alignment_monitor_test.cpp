@@ -81,6 +81,34 @@ TEST(AlignmentMonitor, NoticesACameraThatIsKnockedAndThatItStandsRightAgain) {
   }
 }
 
+// Asked once in thirty frames, as once a second, it knows of a knock with the second answer.
+TEST(AlignmentMonitor, NoticesAKnockSoon) {
+  const SyntheticScene scene({640, 480}, 1);
+  const Calibration& c = scene.calibration();
+  const GreyImage l = scene.render_left(0), r = scene.render_right(0);
+  for (const int rows : {2, 6, 20}) {
+    AlignmentMonitor monitor(scene.size(), 0, 64);
+    KnockDetector detector;
+    const Side left(l, &c.left, Interpolation::kNearest), right(r, &c.right, Interpolation::kNearest);
+    const GreyImage lower = lowered(r, rows);
+    std::string verdict;
+    const auto second = [&](const GreyImage& picture) {
+      for (int frame = 0; frame < 30; ++frame) {
+        monitor.frame_matched({left.map, left.mask, l.row(0)}, {right.map, right.mask, picture.row(0)},
+                              kLong_ns);
+      }
+      verdict = detector.judge(monitor.figures());
+    };
+    for (int s = 0; s < 30; ++s) {
+      second(r);
+      EXPECT_EQ(verdict, "");
+    }
+    second(lower);
+    second(lower);
+    EXPECT_NE(verdict, "") << rows << " rows";
+  }
+}
+
 TEST(AlignmentMonitor, ProbesOnlyWhatMatchingHasPaidFor) {
   const SyntheticScene scene({640, 480}, 1);
   const GreyImage l = scene.render_left(0), r = scene.render_right(0);
@@ -97,7 +125,7 @@ TEST(AlignmentMonitor, ProbesOnlyWhatMatchingHasPaidFor) {
 }
 
 TEST(AlignmentMonitor, KnowsNothingAtFirst) {
-  const AlignmentMonitor monitor({640, 480}, 0, 64);
+  AlignmentMonitor monitor({640, 480}, 0, 64);
   EXPECT_FALSE(monitor.figures().misalignment.has_value());
   EXPECT_EQ(monitor.figures().searched, 0U);
   EXPECT_EQ(KnockDetector().judge(monitor.figures()), "");
