@@ -144,7 +144,7 @@ std::optional<std::string> problem_with(const MatcherOptions& o) {
            outside("p1", o.p1, 0, 255),
            outside("p2", o.p2, 0, 255),
            outside("census_weight", o.census_weight, 0, 16),
-           outside("gradient_limit", o.gradient_limit, 0, 126),
+           outside("gradient_limit", o.gradient_limit, 0, 64),
        }) {
     if (problem) return problem;
   }

@@ -60,7 +60,7 @@ struct MatcherOptions {
   int p1 = 8;               ///< what a step of one disparity costs along a path, 0…255
   int p2 = 40;              ///< what a larger step costs, less the step in grey values there, 0…255
   int census_weight = 4;    ///< cost of each of the eight comparisons that differ, 0…16
-  int gradient_limit = 20;  ///< most that differing gradients cost, and what lies outside the picture, 0…126
+  int gradient_limit = 20;  ///< most that differing gradients cost, and what lies outside the picture, 0…64
   bool fill = false;        ///< pixels without a match get that of a neighbour, see is_filled()
   Implementation implementation = Implementation::kSimd;
   Isa isa = Isa::kAuto;

@@ -102,7 +102,7 @@ void read_semiglobal(YamlSection& section, MatcherOptions& options) {
   options.p1 = section.integer("p1", options.p1, 0, 255);
   options.p2 = section.integer("p2", options.p2, 0, 255);
   options.census_weight = section.integer("census_weight", options.census_weight, 0, 16);
-  options.gradient_limit = section.integer("gradient_limit", options.gradient_limit, 0, 126);
+  options.gradient_limit = section.integer("gradient_limit", options.gradient_limit, 0, 64);
   options.fill = section.flag("fill", options.fill);
 }
 

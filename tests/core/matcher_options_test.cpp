@@ -67,7 +67,7 @@ const std::vector<BadOption>& bad_options() {
       {"p1", "-1", {"0", "255"}, [](auto& o) { o.p1 = -1; }},
       {"p2", "256", {"0", "255"}, [](auto& o) { o.p2 = 256; }},
       {"census_weight", "17", {"0", "16"}, [](auto& o) { o.census_weight = 17; }},
-      {"gradient_limit", "127", {"0", "126"}, [](auto& o) { o.gradient_limit = 127; }},
+      {"gradient_limit", "65", {"0", "64"}, [](auto& o) { o.gradient_limit = 65; }},
       {"fill", "true", {"semiglobal"}, [](auto& o) { o.fill = true; }},
       {"cost",
        "ssd",
@@ -151,7 +151,7 @@ TEST(MatcherOptions, EndsOfEveryRangeAreFine) {
       [](auto& o) { o.p1 = 0; },
       [](auto& o) { o.p2 = 255; },
       [](auto& o) { o.census_weight = 16; },
-      [](auto& o) { o.gradient_limit = 126; },
+      [](auto& o) { o.gradient_limit = 64; },
       [](auto& o) {
         o.cost = Cost::kMad;
         o.implementation = Implementation::kNaive;

@@ -66,7 +66,7 @@ MatcherOptions random_options(Random& random) {
   if (random.one_in(2)) o.p1 = random.between(0, random.one_in(4) ? 255 : 30);
   if (random.one_in(2)) o.p2 = random.between(0, random.one_in(2) ? 255 : 80);
   if (random.one_in(3)) o.census_weight = random.between(0, 16);
-  if (random.one_in(3)) o.gradient_limit = random.between(0, 126);
+  if (random.one_in(3)) o.gradient_limit = random.between(0, 64);
   o.prefilter_cap = random.one_in(2) ? 31 : random.between(1, 63);
   if (random.one_in(3)) o.uniqueness_ratio = random.between(1, random.one_in(3) ? 100 : 15);
   o.left_right_max_diff = random.one_in(4) ? random.between(-1, 255) : random.between(-1, 3);

@@ -44,7 +44,7 @@ void make_semiglobal(Bytes& bytes, MatcherOptions& o) {
   o.p1 = bytes.byte();
   o.p2 = bytes.byte();
   o.census_weight = bytes.byte() % 17;
-  o.gradient_limit = bytes.byte() % 127;
+  o.gradient_limit = bytes.byte() % 65;
   o.fill = bytes.byte() % 2 != 0;
 }
 

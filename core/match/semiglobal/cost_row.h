@@ -72,80 +72,103 @@ class CensusRows {
   }
 };
 
-/// Kernel::cost_row for disparities in kVectors vectors; 0: in any number.
-template <typename V, int kVectors>
+/// Kernel::cost_row. A row is gone through for two vectors of disparities at a time, so that what is kept
+/// from column to column stays in registers, of which some CPUs have 16.
+template <typename V>
 class CostRows {
   using Reg = typename V::Reg;
-  static constexpr int kRoom = kVectors > 0 ? kVectors : kMaxVectors;
 
  public:
   static void row(const Shape& shape, const CostRow& row) {
-    shape.column_step == 1 ? smoothed<true>(shape, row) : smoothed<false>(shape, row);
+    const Fixed fixed(shape, row);
+    shape.column_step == 1 ? all<true>(fixed) : all<false>(fixed);
   }
 
  private:
-  // Weights 1 2 2 2 1 by averages of averages of pairs of neighbours: with p(x) of the costs at x − 1 and x,
-  // and q(x) of p(x) and p(x − 2), the costs at x become the average of q(x + 1) and q(x + 2). Each round
-  // takes an odd and an even column.
+  // What is the same for all pixels of a row. Copied, because bytes that are stored might lie in a Shape or a
+  // CostRow for all that the compiler knows, and it would look there, and divide, for every pixel again.
+  struct Fixed {
+    Fixed(const Shape& shape, const CostRow& row)
+        : vectors(shape.vectors),
+          last(shape.width - 1),
+          row_bytes(shape.row_bytes()),
+          plane(shape.vectors * shape.stripe_bytes()),
+          left(row.left),
+          right(row.right),
+          tables(row.tables),
+          offsets(row.offsets),
+          costs(row.costs),
+          limit(V::broadcast8(static_cast<std::uint8_t>(shape.gradient_limit))) {}
+    const int vectors;
+    const std::ptrdiff_t last, row_bytes, plane;
+    const std::uint8_t *const left, *const right, *const tables;
+    const std::int32_t* const offsets;
+    std::uint8_t* const costs;
+    const Reg limit;
+  };
+
   template <bool kEveryColumn>
-  static void smoothed(const Shape& shape, const CostRow& row) {
-    const int vectors = kVectors > 0 ? kVectors : shape.vectors;
-    const int point = vectors * V::kBytes;
-    const int last = shape.width - 1;
-    Reg even[kRoom], odd[kRoom];              // costs
-    Reg even_pair[kRoom], odd_pair[kRoom];    // p
-    Reg quad[kEveryColumn ? kRoom : 1] = {};  // q of the even column before
-    costs_at(shape, row, 0, even);
-#pragma GCC unroll 4
-    for (int k = 0; k < vectors; ++k) {
-      even_pair[k] = odd_pair[k] = even[k];
-      if constexpr (kEveryColumn) quad[k] = even[k];
-    }
-    std::uint8_t* out = row.costs;  // of column x − 1
-    const int end = kEveryColumn ? last + 2 : last + 1;
-    for (int x = 1; x <= end; x += 2, out += kEveryColumn ? 2 * point : point) {
-      costs_at(shape, row, x < last ? x : last, odd);
-#pragma GCC unroll 4
-      for (int k = 0; k < vectors; ++k) {
+  static void all(const Fixed& fixed) {
+    int k = 0;
+    for (; k + 2 <= fixed.vectors; k += 2) smoothed<kEveryColumn, 2>(fixed, k);
+    if (k < fixed.vectors) smoothed<kEveryColumn, 1>(fixed, k);
+  }
+
+  // kGroup vectors from `first` on. Weights 1 2 2 2 1 by averages of averages of pairs of neighbours: with
+  // p(x) of the costs at x − 1 and x, and q(x) of p(x) and p(x − 2), the costs at x become the average of
+  // q(x + 1) and q(x + 2). Each round takes an odd and an even column.
+  template <bool kEveryColumn, int kGroup>
+  static void smoothed(const Fixed& given, int first) {
+    const Fixed fixed = given;  // nobody else has its address
+    const std::ptrdiff_t point = fixed.vectors * V::kBytes;
+    Reg even[kGroup], odd[kGroup];            // costs
+    Reg even_pair[kGroup], odd_pair[kGroup];  // p
+    Reg quad[kGroup];                         // q of the even column before
+    costs_at<kGroup>(fixed, first, 0, even);
+#pragma GCC unroll 2
+    for (int k = 0; k < kGroup; ++k) even_pair[k] = odd_pair[k] = quad[k] = even[k];
+    std::uint8_t* out = fixed.costs + first * V::kBytes;  // of column x − 1
+    const std::ptrdiff_t end = kEveryColumn ? fixed.last + 2 : fixed.last + 1;
+    for (std::ptrdiff_t x = 1; x <= end; x += 2, out += kEveryColumn ? 2 * point : point) {
+      costs_at<kGroup>(fixed, first, x, odd);
+#pragma GCC unroll 2
+      for (int k = 0; k < kGroup; ++k) {
         const Reg pair = V::average8(even[k], odd[k]);
         even[k] = V::average8(odd_pair[k], pair);  // q(x); the costs before are not needed any more
         odd_pair[k] = pair;
         if constexpr (kEveryColumn)
           V::store_aligned(out - point + k * V::kBytes, V::average8(quad[k], even[k]));
       }
-      Reg next[kRoom];
-      costs_at(shape, row, x + 1 < last ? x + 1 : last, next);
-#pragma GCC unroll 4
-      for (int k = 0; k < vectors; ++k) {
+      Reg next[kGroup];
+      costs_at<kGroup>(fixed, first, x + 1, next);
+#pragma GCC unroll 2
+      for (int k = 0; k < kGroup; ++k) {
         const Reg pair = V::average8(odd[k], next[k]);
         const Reg next_quad = V::average8(even_pair[k], pair);
         V::store_aligned(out + k * V::kBytes, V::average8(even[k], next_quad));
         even_pair[k] = pair;
         even[k] = next[k];
-        if constexpr (kEveryColumn) quad[k] = next_quad;
+        quad[k] = next_quad;
       }
     }
   }
 
   // The costs of a pixel and its matches: census by a table that the left nibble chooses and the right
   // nibbles look up, and the gradient.
-  [[gnu::always_inline]] static void costs_at(const Shape& shape, const CostRow& row, int x, Reg* costs) {
-    const int vectors = kVectors > 0 ? kVectors : shape.vectors;
-    const int row_bytes = shape.row_bytes();
-    const int plane = shape.vectors * shape.stripe_bytes();
-    const int match = x - shape.min_disparity;
-    const std::int32_t* const offsets = row.offsets + row_bytes - 1 - (match < -1 ? -1 : match);
-    const Reg first = V::load_table(row.tables + row.left[x]);
-    const Reg second = V::load_table(row.tables + row.left[row_bytes + x]);
-    const Reg gradient = V::broadcast8(row.left[2 * row_bytes + x]);
-    const Reg limit = V::broadcast8(static_cast<std::uint8_t>(shape.gradient_limit));
-#pragma GCC unroll 4
-    for (int k = 0; k < vectors; ++k) {
-      const std::uint8_t* const right = row.right + offsets[k];
+  template <int kGroup>
+  [[gnu::always_inline]] static void costs_at(const Fixed& fixed, int first, std::ptrdiff_t x, Reg* costs) {
+    const std::int32_t* const offsets = fixed.offsets + x * fixed.vectors + first;
+    const std::uint8_t* const left = fixed.left + x;
+    const Reg upper = V::load_table(fixed.tables + left[0]);
+    const Reg lower = V::load_table(fixed.tables + left[fixed.row_bytes]);
+    const Reg gradient = V::broadcast8(left[2 * fixed.row_bytes]);
+#pragma GCC unroll 2
+    for (int k = 0; k < kGroup; ++k) {
+      const std::uint8_t* const right = fixed.right + offsets[k];
       const Reg census =
-          V::add8(V::look_up(first, V::load(right)), V::look_up(second, V::load(right + plane)));
-      const Reg step = V::abs_diff_u8(gradient, V::load(right + 2 * plane));
-      costs[k] = V::add8(census, V::min8(step, limit));
+          V::add8(V::look_up(upper, V::load(right)), V::look_up(lower, V::load(right + fixed.plane)));
+      const Reg step = V::abs_diff_small(gradient, V::load(right + 2 * fixed.plane));
+      costs[k] = V::add8(census, V::min8(step, fixed.limit));
     }
   }
 };

@@ -99,4 +99,42 @@ void between_rows(const GridValue* a, const GridValue* b, int width, GridValue* 
   for (int x = 0; x < width; x += kColumns) store(out + x, between(load(a + x), load(b + x)));
 }
 
+void disparities_of_row(const GridValue* row, int width, const Disparities& what,
+                        std::int16_t* out) noexcept {
+  const auto first = static_cast<GridValue>(what.min_disparity * (what.subpixel ? int{kSubpixelUnits} : 1));
+  const auto unmatched = static_cast<GridValue>(what.fill ? 1 : kNone);
+  const auto rounding = static_cast<GridValue>(what.subpixel ? 0 : kSubpixelUnits / 2);
+  const int shift = what.subpixel ? 0 : 4;
+  const Values column = {0, 1, 2, 3, 4, 5, 6, 7};
+  constexpr int kFar = 20'000;  // columns; no disparity is as large
+  for (int x = 0; x < width; x += kColumns) {
+    const Values value = load(row + x);
+    const Values units = value >> 1;
+    // Measured, but outside the right picture: that is no measurement.
+    const Values match = column + static_cast<GridValue>(std::min(x - what.min_disparity, kFar));
+    const Values outside = match < ((units + kSubpixelUnits / 2) >> 4);
+    const Values judged = value | (outside & unmatched);
+    const Values disparity = ((units + rounding) >> shift) + first;
+    const Values marked = (judged & 1) != 0 ? -2 - disparity : disparity;
+    store(out + x, judged < 0 ? Values{} + kInvalidDisparity : marked);
+  }
+}
+
+void step_limits(const std::uint8_t* grey, int width, int step, int p2, std::uint8_t* limits) noexcept {
+  using Bytes [[gnu::vector_size(kColumns)]] = std::uint8_t;
+  const auto most = static_cast<GridValue>(p2);
+  const auto points = [&](int x) {
+    if (step == 2) return load(reinterpret_cast<const GridValue*>(grey + 2 * x)) & 0xFF;
+    Bytes bytes;
+    std::memcpy(&bytes, grey + x, sizeof(bytes));
+    return __builtin_convertvector(bytes, Values);
+  };
+  for (int x = 0; x < width; x += kColumns) {
+    const Values change = points(x) - points(x - 1);
+    const Values left_over = most - greater(change, -change);
+    const Bytes bytes = __builtin_convertvector(greater(left_over, Values{}), Bytes);
+    std::memcpy(limits + x, &bytes, sizeof(bytes));
+  }
+}
+
 }  // namespace stereod::semiglobal

@@ -30,4 +30,20 @@ void widen_grid_row(GridValue* row, int image_width, GridValue* out) noexcept;
 /// the lower one; the other one if one is not there. Reads and writes up to the margin.
 void between_rows(const GridValue* a, const GridValue* b, int width, GridValue* out) noexcept;
 
+/// What of the options decides how values become disparities.
+struct Disparities {
+  int min_disparity;
+  bool subpixel;  ///< 1/16 px, else whole ones
+  bool fill;      ///< what was measured outside the right picture counts as filled, else as not there
+};
+
+/// From a row of values to disparities of the picture, as match() writes them. Reads and writes up to the
+/// margin.
+void disparities_of_row(const GridValue* row, int width, const Disparities& what, std::int16_t* out) noexcept;
+
+/// What a larger step of the disparity costs from each point to the one at its left: p2 less the step in grey
+/// levels, at least 0. `step` columns of the picture to a point, 1 or 2. Reads the picture, and writes, up to
+/// 16 elements beyond the last point; the first one means nothing.
+void step_limits(const std::uint8_t* grey, int width, int step, int p2, std::uint8_t* limits) noexcept;
+
 }  // namespace stereod::semiglobal

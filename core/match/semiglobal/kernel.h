@@ -10,6 +10,8 @@ namespace stereod::semiglobal {
 
 /// A pixel is compared by two nibbles of comparisons with its neighbours and by its gradient.
 inline constexpr int kPlanes = 3;
+/// Columns that are smoothed beyond the last one.
+inline constexpr int kBeyond = 3;
 /// Vectors that the disparities of a point are spread over at most.
 inline constexpr int kMaxVectors = 16;
 /// Pixels that the census looks at to the left and to the right, and rows up and down.
@@ -32,9 +34,10 @@ struct Shape {
   int grid_width() const { return (width + column_step - 1) / column_step; }
   /// Bytes of the costs of a point.
   int point_bytes() const { return vectors * lanes; }
-  /// Bytes of a plane of a row of pixels, and of one that runs backwards in stripes. The stripes begin with
-  /// the last of row_bytes() pixels; after the first one come marks for what lies outside.
-  int row_bytes() const { return (width + 63) / 64 * 64; }
+  /// Bytes of a plane of a row of pixels, at least kBeyond more than there are, and of one that runs
+  /// backwards in stripes. The stripes begin with the last of row_bytes() pixels; after the first one come
+  /// marks for what lies outside.
+  int row_bytes() const { return (width + kBeyond + 63) / 64 * 64; }
   int stripe_bytes() const { return (row_bytes() + vectors) / vectors + lanes + 16; }
   int place(int disparity) const { return disparity % vectors * lanes + disparity / vectors; }
 };
@@ -42,10 +45,11 @@ struct Shape {
 /// Costs of a row of the grid smoothed along it, from its first point on; a point's worth of memory before
 /// and after it may be written.
 struct CostRow {
-  const std::uint8_t* left;     ///< [plane][row_bytes()], nibbles times 16
+  const std::uint8_t*
+      left;  ///< [plane][row_bytes()], nibbles times 16; the last pixel is repeated kBeyond times
   const std::uint8_t* right;    ///< [plane][vectors][stripe_bytes()]
   const std::uint8_t* tables;   ///< [16 left nibbles][16 right nibbles]: costs; 64-byte aligned
-  const std::int32_t* offsets;  ///< where in the stripes each pixel stands, the last of row_bytes() first
+  const std::int32_t* offsets;  ///< [width + kBeyond][vectors]: where in the stripes matches begin
   std::uint8_t* costs;
 };
 

@@ -16,21 +16,6 @@ namespace stereod::semiglobal {
 template <typename V>
 class Dispatch {
  public:
-  static void cost_row(const Shape& shape, const CostRow& row) {
-    switch (shape.vectors) {
-      case 1:
-        return CostRows<V, 1>::row(shape, row);
-      case 2:
-        return CostRows<V, 2>::row(shape, row);
-      case 3:
-        return CostRows<V, 3>::row(shape, row);
-      case 4:
-        return CostRows<V, 4>::row(shape, row);
-      default:
-        return CostRows<V, 0>::row(shape, row);
-    }
-  }
-
   static void paths_from_right(const Shape& shape, const PathRows& rows) {
     switch (shape.vectors) {
       case 1:
@@ -69,7 +54,7 @@ constexpr Kernel make_kernel() {
           CensusRows<V>::row,
           kernels::Xsobel<V>::row,
           CensusRows<V>::stripe,
-          Dispatch<V>::cost_row,
+          CostRows<V>::row,
           Dispatch<V>::paths_from_right,
           Dispatch<V>::paths_from_left,
           count_at_most<V>};

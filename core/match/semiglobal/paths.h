@@ -14,7 +14,8 @@ class Paths {
   static constexpr int kRoom = kVectors > 0 ? kVectors : kMaxVectors;
 
  public:
-  static void from_right(const Shape& shape, const PathRows& rows) {
+  // The rows are taken by value: what is stored might lie in the caller's for all that the compiler knows.
+  static void from_right(const Shape& shape, PathRows rows) {
     const int vectors = kVectors > 0 ? kVectors : shape.vectors;
     const int width = shape.grid_width();
     const Reg p1 = V::broadcast8(static_cast<std::uint8_t>(shape.p1));
@@ -45,7 +46,7 @@ class Paths {
     }
   }
 
-  static void from_left(const Shape& shape, const PathRows& rows) {
+  static void from_left(const Shape& shape, PathRows rows) {
     const int vectors = kVectors > 0 ? kVectors : shape.vectors;
     const int width = shape.grid_width();
     const Reg p1 = V::broadcast8(static_cast<std::uint8_t>(shape.p1));

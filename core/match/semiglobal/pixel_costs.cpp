@@ -12,8 +12,9 @@ constexpr int kNibbles = 16;
 constexpr int kNibbleShift = 4;  // of left nibbles, which are places of tables of 16 bytes
 
 // What stands in the planes beyond the picture: no comparison differs (tables give 0 for it), and the
-// gradient differs by more than any limit.
-constexpr std::uint8_t kOutside[kPlanes] = {128, 128, 255};
+// gradient differs by at least as much as the greatest limit, 64, also where bytes go round: gradients are at
+// most 126.
+constexpr std::uint8_t kOutside[kPlanes] = {128, 128, 191};
 
 }  // namespace
 
@@ -22,7 +23,7 @@ PixelCosts::PixelCosts(const MatcherOptions& options, const Shape& shape, const 
       kernel_(kernel),
       prefilter_cap_(options.prefilter_cap),
       tables_(size(kNibbles * kNibbles)),
-      offsets_(size(shape.row_bytes() + shape.vectors)),
+      offsets_(size((shape.width + kBeyond) * shape.vectors)),
       left_(size(kPlanes * shape.row_bytes())),
       right_(size(kPlanes * shape.row_bytes())),
       scratch_(size(2 * shape.row_bytes())),
@@ -33,8 +34,13 @@ PixelCosts::PixelCosts(const MatcherOptions& options, const Shape& shape, const 
           static_cast<std::uint8_t>(options.census_weight * std::popcount(left ^ right));
     }
   }
-  for (int i = 0; i < static_cast<int>(offsets_.size()); ++i) {
-    offsets_[size(i)] = i % shape.vectors * shape.stripe_bytes() + i / shape.vectors;
+  for (int x = 0; x < shape.width + kBeyond; ++x) {
+    const int match = std::max(std::min(x, shape.width - 1) - shape.min_disparity, -1);  // -1: outside
+    for (int k = 0; k < shape.vectors; ++k) {
+      const int backwards = shape.row_bytes() - 1 - match + k;
+      offsets_[size(x * shape.vectors + k)] =
+          backwards % shape.vectors * shape.stripe_bytes() + backwards / shape.vectors;
+    }
   }
   const std::size_t plane = stripes_.size() / kPlanes;
   for (std::size_t i = 0; i < kPlanes; ++i) std::fill_n(stripes_.data() + i * plane, plane, kOutside[i]);
@@ -42,6 +48,10 @@ PixelCosts::PixelCosts(const MatcherOptions& options, const Shape& shape, const 
 
 void PixelCosts::write(const PixelRows& left, const PixelRows& right, std::uint8_t* costs) noexcept {
   describe(left, kNibbleShift, left_.data());
+  for (int i = 0; i < kPlanes; ++i) {
+    std::uint8_t* const end = left_.data() + i * shape_.row_bytes() + shape_.width;
+    std::fill_n(end, kBeyond, end[-1]);
+  }
   describe(right, 0, right_.data());
   const std::size_t plane = stripes_.size() / kPlanes;
   for (std::size_t i = 0; i < kPlanes; ++i) {

@@ -1,7 +1,6 @@
 #include "core/match/semiglobal/semiglobal_matcher.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "core/match/isa.h"
 
@@ -44,7 +43,7 @@ SemiglobalMatcher::SemiglobalMatcher(const MatcherOptions& options, Size image)
       right_input_(shape_.row_bytes() + 2 * kMargin, 2 * kCensusReach + 2 + kRowsAhead),
       pixel_costs_(options_, shape_, kernel_),
       costs_((shape_.grid_width() + 2) * shape_.point_bytes(), kCostRows),
-      limits_(shape_.grid_width() + 1, kCostRows),
+      limits_(shape_.grid_width() + kValues, kCostRows),
       padding_(static_cast<std::size_t>(shape_.point_bytes())),
       smoothed_(shape_.grid_width() * shape_.point_bytes(), 2),
       sums_(shape_.grid_width() * shape_.point_bytes(), 2),
@@ -107,14 +106,7 @@ semiglobal::PixelRows SemiglobalMatcher::pixel_rows(RowRing<std::uint8_t>& input
 void SemiglobalMatcher::compare_row(int g) noexcept {
   const int y = 2 * g;
   pixel_costs_.write(pixel_rows(left_input_, y), pixel_rows(right_input_, y), cost_row(g));
-  const int width = shape_.grid_width();
-  const int step = shape_.column_step;
-  const std::uint8_t* const grey = left_row(y);
-  std::uint8_t* const limits = limits_.row(g);
-  for (int x = 1; x < width; ++x) {
-    const int change = std::abs(grey[x * step] - grey[(x - 1) * step]);
-    limits[x] = static_cast<std::uint8_t>(std::max(options_.p2 - change, 0));
-  }
+  semiglobal::step_limits(left_row(y), shape_.grid_width(), shape_.column_step, options_.p2, limits_.row(g));
 }
 
 // Of an odd number of rows the last one is done together with one that nobody asks for.
@@ -183,24 +175,10 @@ void SemiglobalMatcher::write_grid_row(int g, GridValue* row) noexcept {
   if (g == grid_height() - 1 && y + 1 >= output_.first && y + 1 < output_.end) write_row(y + 1, wide_row(g));
 }
 
-// From grid values to disparities of the picture.
 void SemiglobalMatcher::write_row(int y, const GridValue* row) noexcept {
   std::int16_t* const out = output_rows_.row(y) + kValues;
-  const int shift = options_.subpixel ? 0 : 4;
-  const int rounding = options_.subpixel ? 0 : kSubpixelUnits / 2;
-  const auto first = static_cast<std::int16_t>(options_.min_disparity * options_.units_per_pixel());
-  const auto unmatched = static_cast<std::int16_t>(options_.fill ? 1 : semiglobal::kNone);
-  const int min_disparity = options_.min_disparity;
-  for (int x = 0; x < image_.width; ++x) {
-    const int units = row[x] >> 1;
-    // Measured, but outside the right picture: that is no measurement.
-    const bool outside = x - min_disparity < (units + kSubpixelUnits / 2) >> 4;
-    const int value = outside ? row[x] | unmatched : row[x];
-    const int disparity = first + ((units + rounding) >> shift);
-    out[x] = static_cast<std::int16_t>(value < 0          ? kInvalidDisparity
-                                       : (value & 1) != 0 ? -2 - disparity
-                                                          : disparity);
-  }
+  semiglobal::disparities_of_row(row, image_.width,
+                                 {options_.min_disparity, options_.subpixel, options_.fill}, out);
   mask_row(y, out);
   final_end_ = y + 1;
 }

@@ -39,14 +39,28 @@ void WinnerTests::write(const std::uint8_t* sums, const std::uint16_t* winners, 
   if (left_mask != nullptr || right_mask != nullptr) reject_masked(left_mask, right_mask, out);
 }
 
-// Also notes which right points are claimed, and leaves out winners outside the right picture.
 void WinnerTests::interpolate(const std::uint8_t* sums, const std::uint16_t* winners,
                               GridValue* out) noexcept {
+  switch (shape_.vectors) {  // as constants, two to four make it a third shorter
+    case 2:
+      return interpolate_among<2>(sums, winners, out);
+    case 4:
+      return interpolate_among<4>(sums, winners, out);
+    default:
+      return interpolate_among<0>(sums, winners, out);
+  }
+}
+
+// Also notes which right points are claimed, and leaves out winners outside the right picture.
+template <int kVectors>
+void WinnerTests::interpolate_among(const std::uint8_t* sums, const std::uint16_t* winners,
+                                    GridValue* out) noexcept {
   const int width = shape_.grid_width();
-  const int vectors = shape_.vectors;
-  const int lanes = shape_.lanes;
+  const int vectors = kVectors > 0 ? kVectors : shape_.vectors;
+  const std::ptrdiff_t lanes = shape_.lanes;
   const int shift = shape_.column_step == 2 ? 1 : 0;
-  const int point_bytes = shape_.point_bytes();
+  const int min_disparity = shape_.min_disparity;
+  const std::ptrdiff_t point_bytes = shape_.point_bytes();
   const std::uint8_t* const before = before_.data();
   const std::uint8_t* const after = after_.data();
   const std::int32_t* const reciprocals = reciprocals_.data();
@@ -54,27 +68,27 @@ void WinnerTests::interpolate(const std::uint8_t* sums, const std::uint16_t* win
   std::uint16_t* const claims = claims_.data();
   std::fill_n(claims, width, std::uint16_t{0xFFFF});
   const std::uint8_t* point = sums;
-  for (int x = 0; x < width; ++x, point += point_bytes) {
-    const int lane = winners[x] & 0xFF;
-    const int least = winners[x] >> 8;
-    int vector = 0;
-    int searching = 1;  // without a branch: which vector it is, is hard to foretell
-    for (int k = 0; k + 1 < vectors; ++k) {
-      searching &= static_cast<int>(point[k * lanes + lane] != least);
-      vector += searching;
+  for (std::ptrdiff_t x = 0; x < width; ++x, point += point_bytes) {
+    const unsigned lane = winners[x] & 0xFFU;
+    const unsigned least = winners[x] >> 8;
+    unsigned k = lane * static_cast<unsigned>(vectors);
+    unsigned searching = 1;  // without a branch: which vector it is, is hard to foretell
+    const std::uint8_t* place = point + lane;
+#pragma GCC unroll 4
+    for (int vector = 0; vector + 1 < vectors; ++vector, place += lanes) {
+      searching &= *place != least ? 1U : 0U;
+      k += searching;
     }
-    const int k = lane * vectors + vector;
     const int b = point[before[k]];
     const int a = point[after[k]];
-    const int units = 16 * k + ((8 * (b - a) * reciprocals[b + a - 2 * least] + kReciprocalOne / 2) >> 16);
+    const auto doubled = static_cast<int>(2 * least);
+    const int part = (8 * (b - a) * reciprocals[b + a - doubled] + kReciprocalOne / 2) >> 16;
+    const auto whole = static_cast<int>(k);
     index[x] = static_cast<std::uint8_t>(k);
-    out[x] = static_cast<GridValue>(2 * units);
-    const int match = (x << shift) - shape_.min_disparity - k;
-    if (match < 0) {
-      out[x] = kNone;
-      continue;
-    }
-    std::uint16_t& standing = claims[match >> shift];
+    const int match = (static_cast<int>(x) << shift) - min_disparity - whole;
+    out[x] = match < 0 ? kNone : static_cast<GridValue>(2 * (16 * whole + part));
+    if (match < 0) continue;
+    std::uint16_t& standing = claims[static_cast<unsigned>(match) >> shift];
     const auto claim = static_cast<std::uint16_t>(least << 8 | k);
     standing = claim < standing ? claim : standing;
   }

@@ -24,6 +24,8 @@ class WinnerTests {
 
  private:
   void interpolate(const std::uint8_t* sums, const std::uint16_t* winners, GridValue* out) noexcept;
+  template <int kVectors>
+  void interpolate_among(const std::uint8_t* sums, const std::uint16_t* winners, GridValue* out) noexcept;
   void reject_contested(GridValue* out) const noexcept;
   void reject_ambiguous(const std::uint8_t* sums, const std::uint16_t* winners,
                         GridValue* out) const noexcept;

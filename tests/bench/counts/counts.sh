@@ -13,14 +13,18 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../../.."
 
-# name            width height disparities window prefilter subpixel
+# name            width height disparities window matcher subpixel; matcher as matcher_once has it
 cases=(
   "640x480x64,11x11,xsobel,whole     640 480 64 11 xsobel 0"
   "640x480x64,11x11,xsobel,1/16px    640 480 64 11 xsobel 1"
   "320x240x48,9x9,xsobel,whole       320 240 48 9 xsobel 0"
+  "640x480x64,semi-global,coarse     640 480 64 11 coarse 1"
+  "640x480x64,semi-global,fine       640 480 64 11 fine 1"
+  "320x240x48,semi-global,coarse     320 240 48 9 coarse 1"
 )
 x86_isas=(scalar ssse3 sse41 avx2)
-cache_modes=(large small)
+# The semi-global matcher has one mode for all caches.
+cache_modes_of() { [[ $1 == coarse || $1 == fine ]] && echo large || echo large small; }
 # CPU for llvm-mca, kernel, clock in MHz, the board
 boards=(
   "silvermont  sse41  1910  Atom E3845 (Silvermont), 1.91 GHz"
@@ -171,11 +175,11 @@ echo "Instructions and first-level data cache misses (24 KiB, 6 ways) per pixel"
 printf '%-34s %-8s %-6s %14s %14s\n' case isa cache instructions misses
 declare -A misses
 for row in "${cases[@]}"; do
-  read -r name width height disparities window prefilter subpixel <<<"$row"
+  read -r name width height disparities window matcher subpixel <<<"$row"
   pixels=$((width * height))
   for isa in "${x86_isas[@]}"; do
-    for cache in "${cache_modes[@]}"; do
-      arguments=("$width" "$height" "$disparities" "$window" "$prefilter" "$subpixel" "$isa" "$cache")
+    for cache in $(cache_modes_of "$matcher"); do
+      arguments=("$width" "$height" "$disparities" "$window" "$matcher" "$subpixel" "$isa" "$cache")
       if ! "$native" "${arguments[@]}" 1 2>/dev/null; then
         printf '%-34s %-8s %-6s not available on this CPU\n' "$name" "$isa" "$cache"
         continue
@@ -189,8 +193,8 @@ for row in "${cases[@]}"; do
     done
   done
   [[ -n $arm ]] || continue
-  for cache in "${cache_modes[@]}"; do
-    blocks_of_a_frame "$work/neon" "qemu-aarch64" "$arm" "$width" "$height" "$disparities" "$window" "$prefilter" \
+  for cache in $(cache_modes_of "$matcher"); do
+    blocks_of_a_frame "$work/neon" "qemu-aarch64" "$arm" "$width" "$height" "$disparities" "$window" "$matcher" \
       "$subpixel" neon "$cache"
     printf '%-34s %-8s %-6s %14s %14s\n' "$name" "neon 64" "$cache" \
       "$(per_pixel "$(instructions_in "$work/neon")" "$pixels" 1)" "not measured"
@@ -198,17 +202,18 @@ for row in "${cases[@]}"; do
 done
 
 echo
-echo "Cycles by llvm-mca, cache mode small, and what a frame should take on one core. The misses are those of sse41 in"
+echo "Cycles by llvm-mca, cache mode small where there is one, and what a frame should take on one core. The misses are those of sse41 in"
 echo "the table above at $cycles_per_miss cycles each, none hidden: the truth should lie between the two times."
 printf '%-32s %-44s %8s %9s %8s %8s\n' case board cycles/px covered ms "ms+miss"
 for row in "${cases[@]}"; do
-  read -r name width height disparities window prefilter subpixel <<<"$row"
+  read -r name width height disparities window matcher subpixel <<<"$row"
   pixels=$((width * height))
+  cache=$(cache_modes_of "$matcher" | awk '{print $NF}')
   declare -A cycles=()
   for board in "${boards[@]}"; do
     read -r cpu isa mhz description <<<"$board"
     if [[ -z ${cycles[$cpu]:-} ]]; then
-      arguments=("$width" "$height" "$disparities" "$window" "$prefilter" "$subpixel" "$isa" small)
+      arguments=("$width" "$height" "$disparities" "$window" "$matcher" "$subpixel" "$isa" "$cache")
       if [[ $isa == neon ]]; then
         [[ -n $arm ]] || continue
         blocks_of_a_frame "$work/blocks" "qemu-aarch64" "$arm" "${arguments[@]}"
@@ -221,7 +226,7 @@ for row in "${cases[@]}"; do
     read -r frame covered <<<"${cycles[$cpu]}"
     printf '%-32s %-44s %8s %8s%% %8s %8s\n' "$name" "$description" "$(per_pixel "$frame" "$pixels" 1)" "$covered" \
       "$(awk -v c="$frame" -v mhz="$mhz" 'BEGIN {printf "%.1f", c / mhz / 1000}')" \
-      "$(awk -v c="$frame" -v m="${misses[$name,sse41,small]:-0}" -v each="$cycles_per_miss" -v mhz="$mhz" \
+      "$(awk -v c="$frame" -v m="${misses[$name,sse41,$cache]:-0}" -v each="$cycles_per_miss" -v mhz="$mhz" \
         'BEGIN {printf "%.1f", (c + m * each) / mhz / 1000}')"
   done
 done

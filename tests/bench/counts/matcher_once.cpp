@@ -1,6 +1,8 @@
 // Matches one made-up pair a given number of times and does nothing else, for programs that count
 // instructions and cache misses: the difference of two runs is the difference of their repetitions.
-//   matcher_once WIDTH HEIGHT DISPARITIES WINDOW PREFILTER SUBPIXEL ISA CACHE REPETITIONS
+//   matcher_once WIDTH HEIGHT DISPARITIES WINDOW MATCHER SUBPIXEL ISA CACHE REPETITIONS
+// MATCHER: none or xsobel, the prefilter of the block matcher; coarse or fine, the grid of the semi-global
+// one, which has no WINDOW and no CACHE.
 #include <charconv>
 #include <cstdio>
 #include <exception>
@@ -15,7 +17,8 @@ namespace stereod {
 namespace {
 
 constexpr std::string_view kUsage =
-    "usage: matcher_once WIDTH HEIGHT DISPARITIES WINDOW none|xsobel 0|1 ISA auto|large|small REPETITIONS";
+    "usage: matcher_once WIDTH HEIGHT DISPARITIES WINDOW none|xsobel|coarse|fine 0|1 ISA auto|large|small "
+    "REPETITIONS";
 
 int number(std::string_view text) {
   int value = 0;
@@ -35,10 +38,15 @@ Value known(std::optional<Value> parsed, std::string_view text) {
 
 void run(const char* const* words) {
   const Size size{number(words[0]), number(words[1])};
-  MatcherOptions options;
+  const std::optional<Grid> grid = parse_grid(words[4]);
+  MatcherOptions options = grid ? matcher_preset("dense").value() : MatcherOptions{};
   options.disparities = number(words[2]);
   options.window = number(words[3]);
-  options.prefilter = known(parse_prefilter(words[4]), words[4]);
+  if (grid) {
+    options.grid = *grid;
+  } else {
+    options.prefilter = known(parse_prefilter(words[4]), words[4]);
+  }
   options.subpixel = number(words[5]) != 0;
   options.isa = known(parse_isa(words[6]), words[6]);
   options.cache = known(parse_cache_use(words[7]), words[7]);
