@@ -183,20 +183,25 @@ void ObstacleScan::enter(int group, const Obstacle& obstacle) noexcept {
 // all.
 void ObstacleScan::look_ahead() noexcept {
   double nearest = options_.max_range_m;
-  bool blind = true;
+  int directions = 0, blind = 0;  // of the way ahead
   for (std::size_t i = 0; i < result_.range_m.size(); ++i) {
     const double angle = static_cast<double>(result_.first_rad) +
                          static_cast<double>(i) * static_cast<double>(result_.step_rad);
     const double range = static_cast<double>(result_.range_m[i]);
     const bool ahead = std::abs(options_.stop_distance_m * std::sin(angle)) <= options_.stop_width_m / 2;
-    if (ahead && range > 0) blind = false;
+    directions += ahead ? 1 : 0;
+    blind += ahead && !(range > 0) ? 1 : 0;
     if (result_.support[i] == 0) continue;
     if (std::abs(range * std::sin(angle)) <= options_.stop_width_m / 2) {
       nearest = std::min(nearest, range * std::cos(angle));
     }
   }
-  result_.nearest_m = static_cast<float>(nearest);
-  result_.stop = options_.stop_distance_m > 0 && (blind || nearest < options_.stop_distance_m);
+  // What is nearer than any disparity, or has no texture, leaves holes: a quarter of the way is too much to
+  // miss.
+  const bool too_little = 4 * blind > directions || directions == 0;
+  const bool near = nearest < options_.stop_distance_m;
+  result_.nearest_m = too_little && !near ? 0 : static_cast<float>(nearest);
+  result_.stop = options_.stop_distance_m > 0 && (too_little || near);
 }
 
 }  // namespace stereod

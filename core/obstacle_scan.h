@@ -42,8 +42,9 @@ struct ScanResult {
   std::vector<float> range_m;  ///< max_range_m: nothing found; 0: too little seen in that direction to say
   std::vector<float> support;  ///< pixels of the obstacle; 0: no obstacle
   float first_rad = 0, step_rad = 0;
-  float nearest_m = 0;  ///< along the way ahead, of what stands in it; max_range_m if nothing does
-  bool stop = false;    ///< that is nearer than stop_distance_m, or too little was seen straight ahead
+  /// Along the way ahead, of what stands in it; max_range_m if nothing does; 0 if too little was seen to say.
+  float nearest_m = 0;
+  bool stop = false;  ///< that is nearer than stop_distance_m, or a quarter of the way ahead was not seen
 };
 
 /// Takes a frame's rows in any order, once each. A pixel belongs to an obstacle if its height above the

@@ -15,7 +15,20 @@ one_message() {
       printf "\n## %s\n\n%s\n\n| field | type | unit, range and meaning |\n|---|---|---|\n", name, escaped(about)
       next
     }
+    # A comment that goes on below its field.
+    /^ +\/\// && field != "" {
+      sub(/^ *\/\/ ?/, "")
+      comment = comment " " $0
+      next
+    }
+    function write_field() {
+      if (field != "") printf "| `%s` | %s | %s |\n", field, type, escaped(comment)
+      field = ""
+    }
+    /^}/ { write_field(); next }
     /;/ {
+      write_field()
+      before = type
       comment = ""
       if (match($0, /\/\/.*/)) comment = substr($0, RSTART + 2)
       gsub(/^ +| +$/, "", comment)
@@ -26,9 +39,13 @@ one_message() {
       size = field
       if (sub(/^[^[]*/, "", size)) type = type size
       sub(/\[.*/, "", field)
+      if (comment == "" && type != before) {
+        printf "make-messages.sh: %s: %s has no comment\n", FILENAME, field >"/dev/stderr"
+        failed = 1
+      }
       if (comment == "") comment = "as above"
-      printf "| `%s` | %s | %s |\n", field, type, escaped(comment)
-    }' "$1"
+    }
+    END { exit failed }' "$1"
 }
 
 write_all() {

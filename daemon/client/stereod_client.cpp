@@ -15,9 +15,10 @@ constexpr int kLongestSide = 4096;       // px; no message can ask for gigabytes
 constexpr int kLargestDisparity = 4096;  // px
 constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 
-// Numbers further away than these are another numbering, not a loss. At 30 frames a second: 33 s without
+// Numbers further away than these are another numbering, not a loss. At 30 frames a second: 3 s without
 // reception, half a second of lateness.
-constexpr std::int64_t kMaxForward = 1000;
+constexpr std::int64_t kMaxForward = 100;
+constexpr double kLongestPeriod_us = 60e6;  // of frames
 constexpr std::int64_t kMaxBackward = 16;
 constexpr int kMessagesToFollow = 3;
 
@@ -90,7 +91,7 @@ bool is_sane(const disparity_rows_t& m) {
 }
 
 bool is_sane(const frame_t& m) {
-  return m.frame >= 0 && m.utime >= 0 && is_image_size(m.width, m.height) && m.rows >= 0 &&
+  return m.frame >= 0 && m.utime >= 0 && is_image_size(m.width, m.height) && m.rows >= 1 &&
          m.rows <= m.height && m.messages >= 0 && m.valid_fraction >= 0.0F && m.valid_fraction <= 1.0F;
 }
 
@@ -186,8 +187,14 @@ std::string problem_in_words(const ReceptionCounts& counts) {
         "own "
         "lcm.prefix.");
   }
-  if (counts.messages_ignored > 0) {
-    add(std::to_string(counts.messages_ignored) +
+  if (counts.messages_of_another > 0) {
+    add(std::to_string(counts.messages_of_another) +
+        " messages were about other frames of the same numbers: another stereod publishes on the same "
+        "channels; "
+        "give each its own lcm.prefix.");
+  }
+  if (const auto others = counts.messages_ignored - counts.messages_of_another; others > 0) {
+    add(std::to_string(others) +
         " messages were no messages of this stereod: another program, or a stereod of another version, "
         "publishes "
         "on its channels.");
@@ -286,6 +293,7 @@ FrameAssembler::Slot* FrameAssembler::slot_for(std::int64_t frame, std::int64_t 
   } else if (slot.out.utime != utime || slot.out.row_present.size() != static_cast<std::size_t>(height) ||
              (slot.state == State::kOpen && slot.out.disparity.width() != width)) {
     count_ignored();
+    ++counts_.messages_of_another;
     return nullptr;
   }
   return &slot;
@@ -294,7 +302,13 @@ FrameAssembler::Slot* FrameAssembler::slot_for(std::int64_t frame, std::int64_t 
 /// Whether a message continues the numbering. A lower number with a later exposure is a daemon that began
 /// anew.
 bool FrameAssembler::belongs_to_numbering(std::int64_t frame, std::int64_t utime) const {
-  if (frame >= newest_) return frame - newest_ <= kMaxForward;
+  if (frame == newest_) return true;
+  if (frame > newest_) {
+    const double step = static_cast<double>(frame - newest_);
+    const double time_us = static_cast<double>(utime) - static_cast<double>(newest_utime_);
+    return step <= kMaxForward &&
+           (newest_utime_ == 0 || (time_us >= 0 && time_us <= step * kLongestPeriod_us));
+  }
   return newest_ - frame <= kMaxBackward && utime <= newest_utime_;
 }
 

@@ -158,7 +158,10 @@ struct ReceptionCounts {
   std::int64_t rows_duplicate = 0;
   std::int64_t messages_late = 0;     ///< about frames that were handed over already
   std::int64_t messages_ignored = 0;  ///< contradictory, out of range, or numbered like no frame near
-  std::int64_t restarts = 0;          ///< times the numbering began anew, with the daemon
+  /// Of these: sane ones about a frame of the same number with another exposure or size, as a second stereod
+  /// on the same channels sends them.
+  std::int64_t messages_of_another = 0;
+  std::int64_t restarts = 0;  ///< times the numbering began anew, with the daemon
 };
 
 /// What these counts say is wrong, and what to do, in sentences; empty if nothing is.
@@ -166,8 +169,9 @@ std::string problem_in_words(const ReceptionCounts& counts);
 
 /// Takes the messages of one daemon in any order and hands each frame over once, in the order of their
 /// numbers: as soon as it is complete, else when the next one is, or when two newer ones have begun.
-/// Numbering that jumps (a daemon that was started again) is followed after three messages in a row that
-/// agree, so that a single foreign message does no harm. Knows nothing of LCM; not thread-safe.
+/// Numbers that jump by more than 100, or whose exposures are too far apart for them (a daemon that was
+/// started again), are followed after three messages in a row that agree. Knows nothing of LCM; not
+/// thread-safe.
 class FrameAssembler {
  public:
   using Handler = std::function<void(StereoFrame&&)>;

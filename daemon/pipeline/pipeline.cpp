@@ -28,7 +28,9 @@ WireFormat wire_format(const Config& config) {
 }
 
 std::string describe(const Config& config) {
-  std::string text = "block " + std::string(name_of(config.matcher.implementation));
+  std::string text(name_of(config.matcher.method));
+  text += " ";
+  text += name_of(config.matcher.implementation);
   if (config.matcher.implementation == Implementation::kSimd) {
     text += " " + std::string(name_of(resolve_isa(config.matcher.isa)));
   }

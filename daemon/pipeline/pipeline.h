@@ -71,7 +71,7 @@ class Pipeline {
   const std::shared_ptr<Cameras>& cameras() const { return cameras_; }
   const std::optional<Calibration>& calibration() const { return calibration_; }
   const Config& config() const { return config_; }
-  /// For people: "block simd avx2, 2 workers".
+  /// For people: "semiglobal simd avx2, 2 workers".
   const std::string& matcher_description() const { return matcher_description_; }
   /// What of `scheduling` the system refused, as a sentence; empty if nothing, or not known yet. Any thread.
   std::string scheduling_problem() const;

@@ -114,9 +114,17 @@ TEST(ObstacleScan, SaysWhereTooLittleIsSeen) {
   const ScanResult result = scan_of(scan, image);
   EXPECT_EQ(result.range_m.front(), 3.0F);  // the rightmost
   EXPECT_EQ(result.range_m.back(), 0.0F);
-  EXPECT_FALSE(result.stop);  // something of the way ahead is seen
+  EXPECT_TRUE(result.stop);  // half of the way ahead is not seen
+  EXPECT_EQ(result.nearest_m, 0.0F);
   for (int y = 0; y < image.height(); ++y) std::fill_n(image.row(y), 320, kInvalidDisparity);
   EXPECT_TRUE(scan_of(scan, image).stop);  // blind
+  // At the border the way is free.
+  image = floor_disparity(camera, kGround, {});
+  for (int y = 0; y < image.height(); ++y) std::fill_n(image.row(y), 60, kInvalidDisparity);
+  const ScanResult free = scan_of(scan, image);
+  EXPECT_EQ(free.range_m.back(), 0.0F);
+  EXPECT_FALSE(free.stop);
+  EXPECT_EQ(free.nearest_m, 3.0F);
 }
 
 TEST(ObstacleScan, StopsForWhatStandsInTheWay) {

@@ -32,6 +32,41 @@ TEST(FrameAssembler, IsNotLedAstrayBySingleForeignNumbers) {
   }
 }
 
+// Exposures that do not go with the numbers are another numbering, as near as those may be.
+TEST(FrameAssembler, DoesNotJumpAheadForASingleMessage) {
+  for (const std::int64_t step : {std::int64_t{10}, std::int64_t{1000}}) {
+    AssemblerFixture f;
+    for (int i = 1000; i < 1010; ++i) {
+      f.take_frame(i);
+      disparity_rows_t foreign = rows_of(i + step, 0);
+      foreign.utime = std::int64_t{8'000'000'000'000'000'000};
+      f.assembler.take(foreign);
+    }
+    f.assembler.finish();
+    EXPECT_EQ(f.counts().frames_complete, 10) << step;
+    EXPECT_EQ(f.counts().frames_missing, 0) << step;
+    EXPECT_EQ(f.counts().restarts, 0) << step;
+  }
+}
+
+// Two daemons of the same settings that were started together.
+TEST(FrameAssembler, TellsOfASecondDaemonOnTheChannel) {
+  AssemblerFixture f;
+  for (int i = 0; i < 10; ++i) {
+    f.assembler.take(rows_of(i, 0));
+    disparity_rows_t other = rows_of(i, 2);
+    other.utime += 1234;
+    f.assembler.take(other);
+    f.take_frame(i);
+  }
+  f.assembler.finish();
+  EXPECT_EQ(f.counts().frames_complete, 10);
+  EXPECT_EQ(f.counts().messages_of_another, 10);
+  EXPECT_NE(problem_in_words(f.counts()).find("another stereod publishes on the same channels"),
+            std::string::npos)
+      << problem_in_words(f.counts());
+}
+
 TEST(FrameAssembler, RecoversIfTheVeryFirstMessageIsForeign) {
   AssemblerFixture f;
   f.assembler.take(rows_of(std::numeric_limits<std::int64_t>::max(), 0));

@@ -48,7 +48,16 @@ TEST_F(ViewServerTest, ServesThePageAndWhatItFetches) {
   const auto moment = web.Get("/moment?after=0&step=2");
   EXPECT_EQ(moment->status, 200);
   EXPECT_EQ(moment->body, encoded_moment(*view_.wait_newer(0, std::chrono::milliseconds(0)), 2));
-  EXPECT_EQ(web.Get("/moment?after=1")->status, 204);  // nothing newer
+  EXPECT_EQ(web.Get("/moment?after=1")->status, 204);     // nothing newer
+  EXPECT_EQ(web.Get("/moment?after=5000")->status, 205);  // seen of an earlier server
+  for (const char* range :
+       {"bytes=0-1000000", "bytes=900000-900100", "bytes=100-99999999999", "bytes=0-10"}) {
+    const auto part = web.Get("/moment", {{"Range", range}});
+    ASSERT_TRUE(part) << range;
+    EXPECT_EQ(part->status, 416) << range;
+    EXPECT_LT(part->body.size(), 100U) << range;
+    EXPECT_EQ(web.Get("/view.css", {{"Range", range}})->status, 416) << range;
+  }
   EXPECT_EQ(web.Get("/etc/passwd")->status, 404);
   EXPECT_EQ(web.Get("/../view.js")->status, 404);
   EXPECT_EQ(web.Post("/moment", "x", "text/plain")->status, 404);
@@ -80,7 +89,7 @@ TEST_F(ViewServerTest, AnswersNonsenseWithAnError) {
     EXPECT_EQ(web.Get("/moment?" + std::string(query))->status, 400) << query;
   }
   // A page that knew another server begins anew.
-  EXPECT_EQ(web.Get("/moment?after=99999999999999999999")->status, 204);
+  EXPECT_EQ(web.Get("/moment?after=99999999999999999999")->status, 205);
 }
 
 TEST_F(ViewServerTest, SaysThatAPortIsTaken) {

@@ -52,6 +52,7 @@ int run_check(const TapOptions& tap, const CheckOptions& options, StopSignals& s
   }
   for (const std::string& line : report_lines(reception)) std::printf("%s\n", line.c_str());
   if (!reception.anything_lost()) return kAllWell;
+  if (reception.counts.messages_of_another > 0) return kSomethingLost;  // the report says what to do
   if (const auto advice = receive_buffer_advice(kernel_receive_buffer_limit())) complain(*advice);
   return kSomethingLost;
 }

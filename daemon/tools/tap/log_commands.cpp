@@ -1,5 +1,6 @@
 // stereo-tap record and play: LCM logs.
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <thread>
@@ -15,6 +16,9 @@ namespace stereod {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr double kLongestWait_s =
+    10;  // between two messages; more is a pause nobody needs, or a damaged time
 using std::chrono::milliseconds;
 
 void print(const LogSummary& summary) {
@@ -72,11 +76,18 @@ int run_play(const TapOptions& tap, const PlayOptions& options, StopSignals& sto
   LcmLogReader reader(options.file);
   LcmBus bus(tap.lcm_url);
   LogSummary summary;
-  std::int64_t refused = 0, first_utime = 0;
+  std::int64_t refused = 0, jumps = 0;
+  double after_s = 0, previous_s = 0;
   const Clock::time_point begin = Clock::now();
   for (LogEvent event; reader.next(event);) {
-    if (summary.messages() == 0) first_utime = event.utime;
-    const double after_s = static_cast<double>(event.utime - first_utime) * 1e-6 / options.speed;
+    const double event_s = static_cast<double>(event.utime) * 1e-6;
+    const double step_s = summary.messages() == 0 ? 0 : event_s - previous_s;
+    previous_s = event_s;
+    if (std::abs(step_s) > kLongestWait_s) {
+      ++jumps;
+    } else {
+      after_s += step_s / options.speed;
+    }
     if (!sleep_until(
             begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(after_s)),
             stop)) {
@@ -87,6 +98,11 @@ int run_play(const TapOptions& tap, const PlayOptions& options, StopSignals& sto
   }
   print(summary);
   complain_of_damage(options, reader);
+  if (jumps > 0) {
+    complain("the times of " + std::to_string(jumps) +
+             " messages were more than ten seconds before or after those of the last one; they were not "
+             "waited for.");
+  }
   if (refused > 0) complain(std::to_string(refused) + " messages were refused by the network.");
   return refused > 0 ? kSomethingLost : summary.messages() > 0 ? kAllWell : kNothingArrived;
 }

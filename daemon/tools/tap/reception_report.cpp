@@ -56,7 +56,9 @@ std::vector<std::string> report_lines(const Reception& reception) {
   mention(c.frames_missing, "of the lost frames left no trace at all");
   mention(c.rows_duplicate, "rows came more than once");
   mention(c.messages_late, "messages came too late");
-  mention(c.messages_ignored, "messages made no sense and were ignored");
+  mention(c.messages_ignored - c.messages_of_another, "messages made no sense and were ignored");
+  mention(c.messages_of_another,
+          "messages were another stereod's on the same channels: give each its own lcm.prefix");
   mention(c.restarts, "times the frame numbers began anew: was stereod restarted, or do two share a prefix?");
   return lines;
 }

@@ -33,7 +33,8 @@ struct Reception {
   double fps() const;
   bool anything_arrived() const { return counts.frames_complete + counts.frames_incomplete > 0; }
   bool anything_lost() const {
-    return counts.frames_incomplete + counts.frames_missing + counts.rows_lost > 0;
+    return counts.frames_incomplete + counts.frames_missing + counts.rows_lost + counts.messages_of_another >
+           0;
   }
 };
 

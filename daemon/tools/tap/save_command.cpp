@@ -100,12 +100,13 @@ struct Tally {
 };
 
 int verdict(const TapOptions& tap, const LcmReceiver& receiver, const SaveOptions& options,
-            const Tally& tally) {
+            const Tally& tally, const ReceptionCounts& counts) {
+  if (counts.messages_of_another > 0) complain(problem_in_words(counts));
   if (tally.incomplete > 0) {
     complain(std::to_string(tally.incomplete) + " frames arrived incomplete and were not saved.");
     if (const auto advice = receive_buffer_advice(kernel_receive_buffer_limit())) complain(*advice);
   }
-  if (tally.saved == options.frames) return kAllWell;
+  if (tally.saved == options.frames) return counts.messages_of_another > 0 ? kSomethingLost : kAllWell;
   complain("no whole frame on " + tap.channel("DISPARITY") + " and " + tap.channel("FRAME") + " for " +
            fixed(options.timeout_s, 1) + " s (" + receiver.url() + "), " + std::to_string(tally.saved) +
            " of " + std::to_string(options.frames) + " saved; is stereod streaming?");
@@ -137,7 +138,8 @@ int run_save(const TapOptions& tap, const SaveOptions& options, StopSignals& sto
   while (tally.saved < options.frames && !stop.arrived() && Clock::now() - tally.latest < patience) {
     receiver.receive(milliseconds(50));
   }
-  return stop.arrived() ? static_cast<int>(kAllWell) : verdict(tap, receiver, options, tally);
+  return stop.arrived() ? static_cast<int>(kAllWell)
+                        : verdict(tap, receiver, options, tally, assembler.counts());
 }
 
 }  // namespace stereod

@@ -2,6 +2,7 @@
 
 #include <httplib.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <map>
@@ -64,13 +65,15 @@ struct ViewServer::Server {
     }
     const auto moment = view.wait_newer(after, kPatience);
     if (!moment || moment->number <= after) {
-      response.status = moment || after == 0 ? 204 : 205;  // 205: this server began anew; so does the page
+      // 205: the page has seen more than there was, so this server began anew; so does the page.
+      response.status = (moment ? moment->number : 0) < after ? 205 : 204;
       return;
     }
     const auto bytes = encoded_once(*moment, static_cast<int>(step));
     response.set_content_provider(bytes->size(), "application/octet-stream",
                                   [bytes](std::size_t at, std::size_t size, httplib::DataSink& sink) {
-                                    return sink.write(bytes->data() + at, size);
+                                    at = std::min(at, bytes->size());
+                                    return sink.write(bytes->data() + at, std::min(size, bytes->size() - at));
                                   });
   }
 };
@@ -106,9 +109,15 @@ ViewServer::ViewServer(const LiveView& view, const ViewServerOptions& options)
   s.http.set_pre_routing_handler([allowed = options.allowed_hosts](const auto& request, auto& response) {
     const RequestOrigin origin{request.get_header_value("Host"), request.get_header_value("Origin"),
                                request.get_header_value("Sec-Fetch-Site")};
-    if (may_be_served(origin, allowed)) return httplib::Server::HandlerResponse::Unhandled;
-    response.status = 403;
-    response.set_content("not for this host or origin; see stereo-view --help\n", "text/plain");
+    if (!may_be_served(origin, allowed)) {
+      response.status = 403;
+      response.set_content("not for this host or origin; see stereo-view --help\n", "text/plain");
+    } else if (request.has_header("Range")) {  // the library does not ask whether there is as much
+      response.status = 416;
+      response.set_content("parts are not served\n", "text/plain");
+    } else {
+      return httplib::Server::HandlerResponse::Unhandled;
+    }
     return httplib::Server::HandlerResponse::Handled;
   });
   s.http.set_default_headers({{"Cache-Control", "no-store"},

@@ -175,7 +175,8 @@ function showFrame(frame, values) {
   byId('latency').textContent = (summary.latency_us / 1000).toFixed(2);
   byId('skew').textContent = (summary.skew_us / 1000).toFixed(2);
   const nearest = byId('nearest');
-  nearest.textContent = summary.nearest_m > 0 ? `${summary.stop ? 'STOP, ' : ''}${summary.nearest_m.toFixed(2)} m free ahead` : '';
+  const free = summary.nearest_m > 0 ? `${summary.nearest_m.toFixed(2)} m free ahead` : summary.stop ? 'too little is seen ahead' : '';
+  nearest.textContent = summary.stop ? `STOP, ${free}` : free;
   nearest.className = summary.stop ? 'stop' : '';
   if (view.shown % 5 === 0) {
     drawHistogram(byId('latency-chart'), view.latency);

@@ -4,6 +4,7 @@ package stereod.spy;
 import java.awt.image.BufferedImage;
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
+import java.util.List;
 import java.util.Locale;
 import javax.imageio.ImageIO;
 import javax.swing.JFrame;
@@ -14,15 +15,21 @@ import lcm.lcm.LCMDataInputStream;
 import lcm.lcm.LCMSubscriber;
 import lcm.spy.ChartData;
 import lcm.spy.ObjectPanel;
+import stereod.camera_info_t;
+import stereod.depth_rows_t;
 import stereod.disparity_rows_t;
+import stereod.frame_t;
 import stereod.image_t;
+import stereod.planar_lidar_t;
+import stereod.pointcloud_t;
 import stereod.status_t;
 
 class ChannelWindow implements LCMSubscriber {
     private static final int GREY = 1497715271, MJPEG = 1196444237;
     private static final int LARGEST_SIDE = 4096;
+    private static final List<String> FIELDS = List.of("_STATUS", "_FRAME", "_SCAN", "_CAMERA_INFO", "_DEPTH", "_CLOUD");
 
-    private final String channel;
+    private final String channel, pattern;
     private final JFrame window;
     private final PicturePanel panel = new PicturePanel();
     private ObjectPanel fields;
@@ -31,9 +38,10 @@ class ChannelWindow implements LCMSubscriber {
 
     ChannelWindow(String channel, int x, int y) {
         this.channel = channel;
+        pattern = channel.replaceAll("[^A-Za-z0-9_]", "\\\\$0");
         window = new JFrame(channel);
         window.setDefaultCloseOperation(JFrame.DISPOSE_ON_CLOSE);
-        if (channel.endsWith("_STATUS")) {
+        if (hasFields()) {
             fields = new ObjectPanel(channel, new ChartData(System.currentTimeMillis() * 1000));
             JScrollPane scroll = new JScrollPane(fields);
             fields.setViewport(scroll.getViewport());
@@ -45,19 +53,19 @@ class ChannelWindow implements LCMSubscriber {
         }
         window.setLocation(x, y);
         window.setVisible(true);
-        LCM.getSingleton().subscribe(channel.replaceAll("[^A-Za-z0-9_]", "\\\\$0"), this);
+        LCM.getSingleton().subscribe(pattern, this);
     }
 
     @Override
     public void messageReceived(LCM lcm, String name, LCMDataInputStream in) {
         if (!window.isDisplayable()) {
-            lcm.unsubscribe(channel, this);
+            lcm.unsubscribe(pattern, this);
             return;
         }
         try {
             if (fields != null) {
-                status_t status = new status_t(in);
-                SwingUtilities.invokeLater(() -> fields.setObject(status, status.utime));
+                Object message = messageOf(in);
+                SwingUtilities.invokeLater(() -> fields.setObject(message, System.currentTimeMillis() * 1000));
             } else if (channel.endsWith("_DISPARITY")) {
                 show(rows.take(new disparity_rows_t(in)));
             } else {
@@ -66,6 +74,19 @@ class ChannelWindow implements LCMSubscriber {
         } catch (IOException | RuntimeException | OutOfMemoryError error) {  // not a message of ours
             rows.ignored++;
         }
+    }
+
+    private boolean hasFields() {
+        return FIELDS.stream().anyMatch(channel::endsWith);
+    }
+
+    private Object messageOf(LCMDataInputStream in) throws IOException {
+        if (channel.endsWith("_STATUS")) return new status_t(in);
+        if (channel.endsWith("_FRAME")) return new frame_t(in);
+        if (channel.endsWith("_SCAN")) return new planar_lidar_t(in);
+        if (channel.endsWith("_CAMERA_INFO")) return new camera_info_t(in);
+        if (channel.endsWith("_DEPTH")) return new depth_rows_t(in);
+        return new pointcloud_t(in);
     }
 
     private void show(BufferedImage picture) {
