@@ -1,7 +1,9 @@
 #include "daemon/pipeline/alignment_monitor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
+#include <span>
 #include <vector>
 
 #include "daemon/pipeline/clocks.h"
@@ -15,15 +17,38 @@ std::int64_t thread_cpu_ns() noexcept {
   return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
+// Whether a few points say clearly that rows are apart: hardly one of them lies where it should. How far
+// apart they are takes more points.
+std::optional<Misalignment> clear_knock(std::span<const RowMatch> found) {
+  constexpr std::size_t kFewest = 12;
+  constexpr float kApart_px = 1.5F;
+  const auto size = [](const RowMatch& match) { return std::abs(match.row_offset_px); };
+  const auto apart =
+      std::count_if(found.begin(), found.end(), [&](const RowMatch& m) { return size(m) > kApart_px; });
+  if (found.size() < kFewest || 5 * static_cast<std::size_t>(apart) < 4 * found.size()) return std::nullopt;
+  std::vector<float> offsets, sizes;
+  for (const RowMatch& match : found) offsets.push_back(match.row_offset_px), sizes.push_back(size(match));
+  const auto median = [](std::vector<float>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return static_cast<double>(*middle);
+  };
+  Misalignment result;
+  result.points = found.size();
+  result.row_error_px = result.worst_px = median(sizes);
+  result.row_offset_px = median(offsets);
+  return result;
+}
+
 }  // namespace
 
 AlignmentMonitor::AlignmentMonitor(Size image, int min_disparity, int disparities)
     : image_(image), probe_(image, min_disparity, disparities) {}
 
-// Half is put by, as long as there is less than what kSaved such frames earn.
+// A quarter is put by, as long as there is less than what kSaved such frames earn.
 void AlignmentMonitor::earn(double ns) noexcept {
   constexpr double kSaved = 400;
-  const double put_by = std::clamp(kSaved * ns - saved_ns_, 0.0, ns / 2);
+  const double put_by = std::clamp(kSaved * ns - saved_ns_, 0.0, ns / 4);
   saved_ns_ += put_by;
   purse_ns_ = std::min(purse_ns_ + ns - put_by, kSaved * ns);
 }
@@ -49,9 +74,9 @@ void AlignmentMonitor::remember(const Point& point) noexcept {
   points_[count_++ % kPoints] = point;
   if (reach_ == RowProbe::Reach::kFar) return;
   const double found = point.found ? 1 : 0;
-  found_lately_ += (found - found_lately_) / 12;
+  found_lately_ += (found - found_lately_) / 24;
   found_usually_ += (found - found_usually_) / 240;
-  if (found_lately_ < found_usually_ / 2) search_far();
+  if (found_lately_ < found_usually_ / 3) search_far();
 }
 
 void AlignmentMonitor::frame_matched(const ProbedFrame& left, const ProbedFrame& right,
@@ -99,26 +124,35 @@ AlignmentFigures AlignmentMonitor::figures() {
   }
   const std::int64_t now = monotonic_ns();
   std::vector<RowMatch> found;
+  std::size_t found_by_far_search = 0;
   for (const Point& point : newest) {
     const double age_s = static_cast<double>(now - point.at_ns) * 1e-9;
     const bool enough = found.size() >= kEnough;
     if (age_s > kLongest_s || (age_s > kWindow_s && (enough || figures.searched >= kMany))) break;
-    if (of_far_search > 0 && figures.searched >= of_far_search && (enough || figures.searched >= kManyFar))
-      break;
+    const bool hardly_any = figures.searched >= kManyFar && 50 * found.size() < figures.searched;
+    if (of_far_search > 0 && figures.searched >= of_far_search && (enough || hardly_any)) break;
     ++figures.searched;
-    if (point.found) found.push_back(point.match);
+    if (!point.found) continue;
+    found.push_back(point.match);
+    if (figures.searched <= of_far_search) ++found_by_far_search;
   }
   if (figures.searched > 0) {
     figures.found_share = static_cast<double>(found.size()) / static_cast<double>(figures.searched);
   }
   figures.misalignment = misalignment(found, image_);
+  const bool far_search_suffices = figures.misalignment && found_by_far_search == found.size();
+  if (!far_search_suffices) {
+    constexpr std::size_t kNewest = 16;
+    const auto clear = clear_knock(std::span(found).first(std::min(found_by_far_search, kNewest)));
+    if (clear) figures.misalignment = clear;
+  }
 
   constexpr double kTogether_px = 1;  // of a part: from there on, rows may lie beyond what a near search sees
   const std::lock_guard lock(mutex_);
   const bool together = figures.misalignment && figures.misalignment->worst_px < kTogether_px;
   if (reach_ == RowProbe::Reach::kNear) {
     if (figures.misalignment && !together) search_far();
-  } else if (together && figures.searched <= of_far_search) {
+  } else if (together && found_by_far_search >= kEnough / 2) {
     reach_ = RowProbe::Reach::kNear;
     found_lately_ = found_usually_ = figures.found_share;
   }

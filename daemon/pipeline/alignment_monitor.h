@@ -20,9 +20,9 @@ struct AlignmentFigures {
 };
 
 /// Probes a frame now and then, so seldom that it stays below kShare of the time that matching takes,
-/// whatever the CPU. While the rows lie side by side it looks near them only, and puts by half of that time;
-/// once the points that it looks for are gone, it searches far with all that it has saved, and only that
-/// counts then. Remembers what was found in the last kWindow_s, or longer where that were few points.
+/// whatever the CPU. While the rows lie side by side it looks near them only, and puts by a quarter of that
+/// time; once the points that it looks for are gone, it searches far with all that it has saved, and only
+/// that counts then. Remembers what was found in the last kWindow_s, or longer where that were few points.
 class AlignmentMonitor {
  public:
   static constexpr double kShare = 0.02;
@@ -60,9 +60,9 @@ class AlignmentMonitor {
   mutable std::mutex mutex_;
   std::array<Point, kPoints> points_{};  // a ring
   std::size_t count_ = 0;
-  RowProbe::Reach reach_ = RowProbe::Reach::kFar;
-  std::size_t far_since_ = 0;                    // count_ when it began to search far, the last time
-  double found_lately_ = 0, found_usually_ = 0;  // share of the points searched near
+  RowProbe::Reach reach_ = RowProbe::Reach::kNear;
+  std::size_t far_since_ = 0;                        // count_ when it began to search far, the last time
+  double found_lately_ = 0.5, found_usually_ = 0.5;  // share of the points searched near
   std::int64_t spent_ns_ = 0, matched_ns_ = 0;
 };
 

@@ -65,7 +65,7 @@ void measure(const fs::path& scenes, const fs::path& calibration, int rows, int 
       << "calibration: " << calibration.string() << "\nmatcher: {preset: " << preset << "}\n"
       << "lcm: {url: \"" << kUrl << "\", prefix: KNOCK}\n";
   LcmReceiver receiver(kUrl);
-  status_t status;
+  status_t status{};
   receiver.subscribe("KNOCK_STATUS",
                      [&](std::span<const std::byte> bytes) { decode_message(bytes, status); });
   ChildProgram stereod(fs::path(STEREOD_BIN_DIR) / "stereod",
@@ -87,7 +87,8 @@ void measure(const fs::path& scenes, const fs::path& calibration, int rows, int 
     }
   }
   stereod.send(SIGTERM);
-  stereod.wait();
+  const ProgramRun run = stereod.wait();
+  if (status.utime == 0) throw std::runtime_error("stereod said nothing: " + run.err);
   const std::string after = noticed_s < 0 ? "not in 12 s" : std::to_string(noticed_s).substr(0, 4) + " s";
   std::printf("| %d | %-7s | %-11s | %.2f px from %.0f points | %.1f %% | %s |\n", fps, preset, after.c_str(),
               error_before, points_before, cost, false_alarm ? "FALSE ALARM before" : "");
