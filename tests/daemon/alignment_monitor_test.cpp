@@ -99,7 +99,7 @@ TEST(AlignmentMonitor, NoticesAKnockSoon) {
       }
       verdict = detector.judge(monitor.figures());
     };
-    for (int s = 0; s < 30; ++s) {
+    for (int s = 0; s < 10; ++s) {
       second(r);
       EXPECT_EQ(verdict, "");
     }
