@@ -43,4 +43,23 @@ std::optional<Misalignment> misalignment(std::span<const RowMatch> matches, Size
   return result;
 }
 
+std::optional<Misalignment> clear_misalignment(std::span<const RowMatch> matches) {
+  constexpr std::size_t kFewest = 12;
+  constexpr double kApart_px = 1.5;
+  if (matches.size() < kFewest) return std::nullopt;
+  std::vector<double> offsets, sizes;
+  std::size_t apart = 0;
+  for (const RowMatch& match : matches) {
+    offsets.push_back(match.row_offset_px);
+    sizes.push_back(std::abs(offsets.back()));
+    apart += sizes.back() > kApart_px ? 1U : 0U;
+  }
+  if (5 * apart < 4 * matches.size()) return std::nullopt;
+  Misalignment result;
+  result.points = matches.size();
+  result.row_error_px = result.worst_px = median(sizes);
+  result.row_offset_px = median(offsets);
+  return result;
+}
+
 }  // namespace stereod

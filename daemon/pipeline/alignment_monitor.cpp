@@ -1,7 +1,6 @@
 #include "daemon/pipeline/alignment_monitor.h"
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
 #include <span>
 #include <vector>
@@ -15,29 +14,6 @@ std::int64_t thread_cpu_ns() noexcept {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
-}
-
-// Whether a few points say clearly that rows are apart: hardly one of them lies where it should. How far
-// apart they are takes more points.
-std::optional<Misalignment> clear_knock(std::span<const RowMatch> found) {
-  constexpr std::size_t kFewest = 12;
-  constexpr float kApart_px = 1.5F;
-  const auto size = [](const RowMatch& match) { return std::abs(match.row_offset_px); };
-  const auto apart =
-      std::count_if(found.begin(), found.end(), [&](const RowMatch& m) { return size(m) > kApart_px; });
-  if (found.size() < kFewest || 5 * static_cast<std::size_t>(apart) < 4 * found.size()) return std::nullopt;
-  std::vector<float> offsets, sizes;
-  for (const RowMatch& match : found) offsets.push_back(match.row_offset_px), sizes.push_back(size(match));
-  const auto median = [](std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return static_cast<double>(*middle);
-  };
-  Misalignment result;
-  result.points = found.size();
-  result.row_error_px = result.worst_px = median(sizes);
-  result.row_offset_px = median(offsets);
-  return result;
 }
 
 }  // namespace
@@ -143,7 +119,7 @@ AlignmentFigures AlignmentMonitor::figures() {
   const bool far_search_suffices = figures.misalignment && found_by_far_search == found.size();
   if (!far_search_suffices) {
     constexpr std::size_t kNewest = 16;
-    const auto clear = clear_knock(std::span(found).first(std::min(found_by_far_search, kNewest)));
+    const auto clear = clear_misalignment(std::span(found).first(std::min(found_by_far_search, kNewest)));
     if (clear) figures.misalignment = clear;
   }
 

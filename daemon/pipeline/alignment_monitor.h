@@ -40,7 +40,8 @@ class AlignmentMonitor {
   static constexpr double kWindow_s = 4, kLongest_s = 30;
   static constexpr std::size_t kEnough = 60;  // points found; with fewer in the window older ones count too,
   static constexpr std::size_t kMany = 300;   // if so many were searched, not
-  static constexpr std::size_t kManyFar = 120;
+  static constexpr std::size_t kManyFar =
+      120;  // searched far with hardly any found: what was before does not count
 
   struct Point {
     std::int64_t at_ns;

@@ -176,6 +176,19 @@ TEST(RowProbe, LooksOnlyWherePixelsHaveASource) {
   }
 }
 
+TEST(Misalignment, IsClearFromAFewPointsThatAgree) {
+  std::vector<RowMatch> matches;
+  for (int i = 0; i < 11; ++i) matches.push_back({10, 10, i % 2 == 0 ? 4.0F : -4.0F, 5});  // a turned camera
+  EXPECT_FALSE(clear_misalignment(matches).has_value());
+  matches.push_back({10, 10, 0, 5});
+  const auto found = clear_misalignment(matches);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->points, 12U);
+  EXPECT_EQ(found->row_error_px, 4);
+  for (int i = 0; i < 2; ++i) matches.push_back({10, 10, 1.4F, 5});
+  EXPECT_FALSE(clear_misalignment(matches).has_value()) << "11 of 14 are less than four fifths";
+}
+
 TEST(Misalignment, NeedsPointsEnough) {
   std::vector<RowMatch> matches;
   for (int i = 0; i < 39; ++i) matches.push_back({10, 10, 1, 5});

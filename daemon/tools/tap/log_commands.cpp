@@ -16,10 +16,10 @@ namespace stereod {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr double kLongestWait_s =
-    10;  // between two messages; more is a pause nobody needs, or a damaged time
 using std::chrono::milliseconds;
+
+// Between two messages; more is a pause that nobody needs, or a damaged time.
+constexpr double kLongestWait_s = 10;
 
 void print(const LogSummary& summary) {
   for (const std::string& line : summary.lines()) std::printf("%s\n", line.c_str());
