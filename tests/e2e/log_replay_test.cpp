@@ -98,6 +98,19 @@ TEST_F(LogReplay, StereoTapSaysWhatIsInTheLogAndPlaysIt) {
   EXPECT_GE(frames, 3);
   EXPECT_EQ(play.wait().status, 0);
 
+  // A message's time is more than an hour ahead: one byte of the first event's, behind its mark and its
+  // number.
+  std::fstream damaged(log_, std::ios::in | std::ios::out | std::ios::binary);
+  constexpr int kMark = 4, kNumber = 8, kFourthByte = 3;
+  damaged.seekg(kMark + kNumber + kFourthByte);
+  const char byte = static_cast<char>(damaged.get() + 1);
+  damaged.seekp(kMark + kNumber + kFourthByte);
+  damaged.put(byte);
+  damaged.close();
+  const ProgramRun jump = tap({"play", log_.string(), "--speed", "3", "--lcm-url", kUrl});
+  EXPECT_EQ(jump.status, 0) << jump.err;
+  EXPECT_THAT(jump.err, HasSubstr("the times of 1 messages were more than ten seconds"));
+
   std::ofstream(log_) << "no log";
   const ProgramRun bad = tap({"play", log_.string()});
   EXPECT_EQ(bad.status, 1);

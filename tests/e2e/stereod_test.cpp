@@ -117,6 +117,8 @@ TEST_P(StereodRows, ArriveInAnotherProcessAsStereoMatchMakesThem) {
   const ProgramRun run = stereod.wait();
   assembler.finish();
   EXPECT_EQ(run.status, 0) << run.err;
+  const std::string method = std::string(GetParam().name) == "thesis" ? "block" : "semiglobal";
+  EXPECT_NE(run.err.find("matcher " + method + " simd"), std::string::npos) << run.err;
   EXPECT_EQ(run.out, "");
   EXPECT_GE(frames, 3 * kPairs) << run.err;
   EXPECT_EQ(assembler.counts().rows_lost, 0);
