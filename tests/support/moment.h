@@ -24,14 +24,21 @@ inline DecodedMoment decoded_moment(const std::string& bytes) {
   DecodedMoment result{YAML::Load(bytes.substr(4, length)), {}, {}};
   const std::string compressed = bytes.substr(4 + length, result.json["disparity_bytes"].as<std::size_t>());
   result.left = bytes.substr(4 + length + compressed.size());
-  std::vector<std::int16_t> room(1'000'000);
-  uLongf size = room.size() * 2;
   if (compressed.empty()) return result;
-  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(room.data()), &size,
-                       reinterpret_cast<const Bytef*>(compressed.data()), compressed.size()),
-            Z_OK);
-  room.resize(size / 2);
-  result.disparity = room;
+  std::vector<std::uint8_t> planes(2'000'000);  // low bytes, then high ones
+  uLongf size = planes.size();
+  EXPECT_EQ(
+      uncompress(planes.data(), &size, reinterpret_cast<const Bytef*>(compressed.data()), compressed.size()),
+      Z_OK);
+  const YAML::Node frame = result.json["frame"];
+  const auto width = static_cast<std::size_t>((frame["width"].as<int>() + frame["step"].as<int>() - 1) /
+                                              frame["step"].as<int>());
+  for (std::size_t i = 0; i < size / 2; ++i) {
+    const int folded = planes[i] | planes[size / 2 + i] << 8;
+    const int difference = folded % 2 == 0 ? folded / 2 : -(folded + 1) / 2;
+    const int above = i < width ? 0 : result.disparity[i - width];
+    result.disparity.push_back(static_cast<std::int16_t>(above + difference));
+  }
   return result;
 }
 

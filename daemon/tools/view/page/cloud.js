@@ -1,5 +1,6 @@
 'use strict';
-// The point cloud, in WebGL: turns by itself until it is dragged.
+// The point cloud, in WebGL: turns by itself until it is dragged. Where drawing takes long, as without a graphics card, it
+// shows fewer points, and turns in fewer steps.
 class Cloud {
   constructor(canvas) {
     this.canvas = canvas;
@@ -7,7 +8,11 @@ class Cloud {
     this.pitch = 0.25;
     this.dragged = 0;
     this.count = 0;
-    const gl = this.gl = canvas.getContext('webgl', { preserveDrawingBuffer: true });
+    this.spacing = 2;  // px of the rectified image from point to point
+    this.began = 0;    // when it was last asked to be drawn, ms
+    this.fence = null; // what says that this has been done
+    this.took = 16;    // ms that it takes
+    const gl = this.gl = canvas.getContext('webgl2', { preserveDrawingBuffer: true, antialias: false });
     if (!gl) return;
     const program = this.program = gl.createProgram();
     const add = (type, source) => {
@@ -17,27 +22,26 @@ class Cloud {
       gl.attachShader(program, shader);
     };
     add(gl.VERTEX_SHADER, `
-      attribute vec3 point; attribute vec3 colour; varying vec3 shown;
-      uniform vec4 turn; uniform vec3 centre; uniform vec2 lens;
+      attribute vec4 point; varying float shown;
+      uniform vec4 turn; uniform vec3 centre; uniform vec2 lens; uniform float size;
       void main() {
-        vec3 p = point - centre;
+        vec3 p = point.xyz - centre;
         p = vec3(turn.x * p.x + turn.y * p.z, p.y, turn.x * p.z - turn.y * p.x);
         p = vec3(p.x, turn.z * p.y - turn.w * p.z, turn.z * p.z + turn.w * p.y);
         p += vec3(0.0, 0.0, 1.2 * centre.z);
         gl_Position = vec4(lens.x * p.x, -lens.y * p.y, p.z - 0.2, p.z);
-        gl_PointSize = clamp(3.0 * centre.z / p.z, 1.5, 6.0);
-        shown = colour;
+        gl_PointSize = clamp(size * centre.z / p.z, 1.5, 2.0 * size);
+        shown = point.w;
       }`);
-    add(gl.FRAGMENT_SHADER, 'precision mediump float; varying vec3 shown; void main() { gl_FragColor = vec4(shown, 1.0); }');
+    add(gl.FRAGMENT_SHADER, 'precision mediump float; varying float shown; void main() { gl_FragColor = vec4(shown * vec3(1.0, 0.97, 0.9), 1.0); }');
     gl.linkProgram(program);
     gl.useProgram(program);
-    for (const name of ['point', 'colour']) {
-      this[name] = gl.createBuffer();
-      gl.bindBuffer(gl.ARRAY_BUFFER, this[name]);
-      const at = gl.getAttribLocation(program, name);
-      gl.enableVertexAttribArray(at);
-      gl.vertexAttribPointer(at, 3, gl.FLOAT, false, 0, 0);
-    }
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    const at = gl.getAttribLocation(program, 'point');
+    gl.enableVertexAttribArray(at);
+    gl.vertexAttribPointer(at, 4, gl.FLOAT, false, 0, 0);
+    this.uniform = {};
+    for (const name of ['turn', 'centre', 'lens', 'size']) this.uniform[name] = gl.getUniformLocation(program, name);
     gl.enable(gl.DEPTH_TEST);
     gl.clearColor(0.05, 0.06, 0.075, 1);
     canvas.addEventListener('pointermove', event => {
@@ -46,38 +50,52 @@ class Cloud {
       this.pitch = Math.max(-1.5, Math.min(1.5, this.pitch + event.movementY * 0.01));
       this.dragged = performance.now();
     });
-    const turn = () => {
-      if (performance.now() - this.dragged > 5000) this.yaw = 0.5 * Math.sin(performance.now() / 3000);
-      this.draw();
+    const turn = now => {
       requestAnimationFrame(turn);
+      if (!this.isDone(now) || now - this.began < 3 * this.took) return;
+      if (now - this.dragged > 5000) this.yaw = 0.5 * Math.sin(now / 3000);
+      this.draw();
+      this.began = now;
+      this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+      gl.flush();
     };
     requestAnimationFrame(turn);
   }
 
-  // x, y, z of each point in metres, red, green and blue of each from 0 to 1.
-  show(points, colours) {
+  // x, y, z of each point in metres, and how bright it is, 0 to 1.
+  show(points) {
     const gl = this.gl;
     if (!gl) return;
-    this.count = points.length / 3;
+    this.count = points.length / 4;
     const depths = [];
-    for (let i = 2; i < points.length; i += 3 * 31) depths.push(points[i]);
+    for (let i = 2; i < points.length; i += 4 * 31) depths.push(points[i]);
     depths.sort((a, b) => a - b);
     const middle = depths.length ? depths[depths.length >> 1] : 1;
     this.centre = this.centre ? this.centre + 0.1 * (middle - this.centre) : middle;
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.point);
     gl.bufferData(gl.ARRAY_BUFFER, points, gl.DYNAMIC_DRAW);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.colour);
-    gl.bufferData(gl.ARRAY_BUFFER, colours, gl.DYNAMIC_DRAW);
+  }
+
+  // Whether what was asked for last has been drawn; nobody waits for it.
+  isDone(now) {
+    const gl = this.gl;
+    if (!this.fence) return true;
+    if (gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED) return false;
+    gl.deleteSync(this.fence);
+    this.fence = null;
+    this.took += 0.3 * (now - this.began - this.took);
+    if (this.took > 40 && this.spacing < 8) this.spacing++, this.took = 30;
+    if (this.took < 20 && this.spacing > 2) this.spacing--, this.took = 30;
+    return true;
   }
 
   draw() {
     const gl = this.gl;
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     if (!this.count) return;
-    const at = name => gl.getUniformLocation(this.program, name);
-    gl.uniform4f(at('turn'), Math.cos(this.yaw), Math.sin(this.yaw), Math.cos(this.pitch), Math.sin(this.pitch));
-    gl.uniform3f(at('centre'), 0, 0, this.centre);
-    gl.uniform2f(at('lens'), 1.6, 1.6 * this.canvas.width / this.canvas.height);
+    gl.uniform4f(this.uniform.turn, Math.cos(this.yaw), Math.sin(this.yaw), Math.cos(this.pitch), Math.sin(this.pitch));
+    gl.uniform3f(this.uniform.centre, 0, 0, this.centre);
+    gl.uniform2f(this.uniform.lens, 1.6, 1.6 * this.canvas.width / this.canvas.height);
+    gl.uniform1f(this.uniform.size, 1.5 * this.spacing);
     gl.drawArrays(gl.POINTS, 0, this.count);
   }
 }

@@ -1,7 +1,7 @@
 'use strict';
 // Fetches one moment after the other and shows it. The newest is `view.moment`; a person, and the tests, may look.
 const byId = id => document.getElementById(id);
-const view = { moment: null, values: null, paused: false, shown: 0, latency: [], skew: [], times: [] };
+const view = { moment: null, values: null, paused: false, shown: 0, told: 0, latency: [], skew: [], times: [] };
 const cloud = new Cloud(byId('cloud'));
 let leftImage = null;  // ImageData of the newest left image
 
@@ -25,68 +25,95 @@ const depthOf = (units, f) => {
 const rectifiedX = (frame, x) => frame.left + x * frame.column_step;
 const rectifiedY = (frame, y) => frame.top + y * frame.row_step;
 
-async function inflated(bytes) {
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
-  return new Int16Array(await new Response(stream).arrayBuffer());
+const publishedSize = frame => [Math.ceil(frame.width / frame.step), Math.ceil(frame.height / frame.step)];
+
+// What moment_codec.cpp's compressed_disparity() packed.
+async function disparities(bytes, frame) {
+  const stream = new Response(bytes).body.pipeThrough(new DecompressionStream('deflate'));
+  const planes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const [width, height] = publishedSize(frame), count = width * height;
+  const values = new Int16Array(count);
+  for (let i = 0; i < count; ++i) {
+    const folded = planes[i] | planes[count + i] << 8;
+    values[i] = (i < width ? 0 : values[i - width]) + (folded >>> 1 ^ -(folded & 1));
+  }
+  return values;
 }
 
-async function decode(buffer) {
+function momentOf(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
-  const moment = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
-  const disparity = new Uint8Array(buffer, 4 + length, moment.disparity_bytes);
-  const left = new Uint8Array(buffer, 4 + length + moment.disparity_bytes, moment.left_bytes);
-  const values = moment.disparity_bytes ? await inflated(disparity) : null;
-  const picture = moment.left_bytes ? await createImageBitmap(new Blob([left], { type: 'image/jpeg' })) : null;
+  return [JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length))), 4 + length];
+}
+
+// The faster way is not there in every browser, nor over plain HTTP from another host.
+async function pictureOf(jpeg) {
+  if ('ImageDecoder' in window) return (await new ImageDecoder({ data: jpeg, type: 'image/jpeg' }).decode()).image;
+  return createImageBitmap(new Blob([jpeg], { type: 'image/jpeg' }));
+}
+
+async function decode(moment, buffer, at) {
+  const bytes = new Uint8Array(buffer, at, moment.disparity_bytes);
+  const left = new Uint8Array(buffer, at + moment.disparity_bytes, moment.left_bytes);
+  const [values, picture] = await Promise.all([
+    moment.frame ? disparities(bytes, moment.frame) : null, moment.left_bytes ? pictureOf(left) : null]);
   return { moment, values, picture };
 }
 
 function drawLeft(picture) {
   byId('no-left').hidden = Boolean(picture);
   if (!picture) return;
-  const canvas = byId('left');
-  if (canvas.width !== picture.width || canvas.height !== picture.height) {
-    canvas.width = picture.width;
-    canvas.height = picture.height;
-  }
-  const context = canvas.getContext('2d', { willReadFrequently: true });
-  context.drawImage(picture, 0, 0);
-  leftImage = context.getImageData(0, 0, picture.width, picture.height);
-}
-
-function drawDisparity(frame, values) {
-  const width = Math.ceil(frame.width / frame.step), height = Math.ceil(frame.height / frame.step);
-  const canvas = byId('disparity');
+  const canvas = byId('left'), width = picture.displayWidth || picture.width, height = picture.displayHeight || picture.height;
   if (canvas.width !== width || canvas.height !== height) {
     canvas.width = width;
     canvas.height = height;
   }
-  const least = frame.min_disparity * frame.units_per_pixel;
-  const range = Math.max(frame.disparities * frame.units_per_pixel - 1, 1);
-  const image = new ImageData(width, height);
-  for (let i = 0, o = 0; i < values.length; ++i, o += 4) {
-    const value = values[i];
-    if (value < 0) {
-      image.data[o] = image.data[o + 1] = image.data[o + 2] = 34;
-    } else {
-      const c = 3 * Math.min(255, Math.max(0, Math.round((value - least) / range * 255)));
-      image.data[o] = palette[c];
-      image.data[o + 1] = palette[c + 1];
-      image.data[o + 2] = palette[c + 2];
-    }
-    image.data[o + 3] = 255;
+  const context = canvas.getContext('2d', { willReadFrequently: true });
+  context.drawImage(picture, 0, 0);
+  picture.close();
+  leftImage = context.getImageData(0, 0, width, height);
+}
+
+// The colour of every disparity there can be, for one range of them.
+const colours = { least: 0, range: 0, of: new Uint32Array(65536) };
+
+function colourRange(least, range) {
+  if (colours.least === least && colours.range === range) return;
+  const bytes = new Uint8Array(colours.of.buffer);
+  for (let value = -32768; value < 32768; ++value) {
+    const o = 4 * (value & 0xFFFF), c = 3 * Math.min(255, Math.max(0, Math.round((value - least) / range * 255)));
+    for (let j = 0; j < 3; ++j) bytes[o + j] = value < 0 ? 34 : palette[c + j];
+    bytes[o + 3] = 255;
   }
-  canvas.getContext('2d').putImageData(image, 0, 0);
+  Object.assign(colours, { least, range });
+}
+
+let disparityImage = null;
+
+function drawDisparity(frame, values) {
+  const [width, height] = publishedSize(frame), canvas = byId('disparity');
+  if (!disparityImage || canvas.width !== width || canvas.height !== height) {
+    canvas.width = width;
+    canvas.height = height;
+    disparityImage = new ImageData(width, height);
+  }
+  colourRange(frame.min_disparity * frame.units_per_pixel, Math.max(frame.disparities * frame.units_per_pixel - 1, 1));
+  const pixels = new Uint32Array(disparityImage.data.buffer);
+  for (let i = 0; i < values.length; ++i) pixels[i] = colours.of[values[i] & 0xFFFF];
+  canvas.getContext('2d', { willReadFrequently: true }).putImageData(disparityImage, 0, 0);
   const far = frame.min_disparity, near = frame.min_disparity + frame.disparities;
   byId('scale').textContent = frame.camera
     ? `${far} px (far) to ${near} px (${depthOf(near * frame.units_per_pixel, frame).toFixed(2)} m)`
     : `${far} px (far) to ${near} px (near), no calibration`;
 }
 
+let points = new Float32Array(0);
+
 function drawCloud(frame, values) {
   if (!frame.camera) return;
-  const k = Math.max(1, Math.round(2 / frame.step)), width = Math.ceil(frame.width / frame.step);
-  const height = Math.ceil(frame.height / frame.step);
-  const points = new Float32Array(3 * Math.ceil(width / k) * Math.ceil(height / k)), colours = new Float32Array(points.length);
+  const [width, height] = publishedSize(frame);
+  const k = Math.max(1, Math.round(Math.min(cloud.spacing / frame.step, width / 100)));
+  const most = 4 * Math.ceil(width / k) * Math.ceil(height / k);
+  if (points.length < most) points = new Float32Array(most);
   const { fx, fy, cx, cy } = frame.camera;
   let n = 0;
   for (let y = 0; y < height; y += k) {
@@ -96,18 +123,15 @@ function drawCloud(frame, values) {
       const z = depthOf(value, frame);
       if (!(z < 20)) continue;
       const px = rectifiedX(frame, x * frame.step), py = rectifiedY(frame, y * frame.step);
+      const seen = leftImage && px < leftImage.width && py < leftImage.height;
       points[n] = (px - cx) * z / fx;
       points[n + 1] = (py - cy) * z / fy;
       points[n + 2] = z;
-      const seen = leftImage && px < leftImage.width && py < leftImage.height;
-      const grey = seen ? leftImage.data[4 * (py * leftImage.width + px)] / 255 : 0.8;
-      colours[n] = grey;
-      colours[n + 1] = grey * 0.97;
-      colours[n + 2] = grey * 0.9;
-      n += 3;
+      points[n + 3] = seen ? leftImage.data[4 * (py * leftImage.width + px)] / 255 : 0.8;
+      n += 4;
     }
   }
-  cloud.show(points.subarray(0, n), colours.subarray(0, n));
+  cloud.show(points.subarray(0, n));
 }
 
 function fillTable(id, rows) {
@@ -188,7 +212,7 @@ function showFrame(frame, values) {
 view.at = (x, y) => {
   const frame = view.moment && view.moment.frame;
   if (!frame || x < 0 || y < 0 || x >= frame.width || y >= frame.height) return null;
-  const width = Math.ceil(frame.width / frame.step);
+  const [width] = publishedSize(frame);
   const value = view.values[Math.floor(y / frame.step) * width + Math.floor(x / frame.step)];
   return { value, disparity: value < 0 ? null : value / frame.units_per_pixel,
            depth: value < 0 || !frame.camera ? null : depthOf(value, frame) };
@@ -222,8 +246,9 @@ function show({ moment, values, picture }) {
   view.values = values;
   drawLeft(picture);
   if (moment.frame) showFrame(moment.frame, values);
-  if (view.shown++ % 3 === 0 || !moment.frame) {
-    drawScan(byId('scan'), moment.scan);
+  if (view.shown++ % 3 === 0 || !moment.frame) drawScan(byId('scan'), moment.scan);
+  if (performance.now() - view.told > 250 || !moment.frame) {  // faster than that nobody reads
+    view.told = performance.now();
     showStatus(moment.status, moment.counts);
   }
   showPointer();
@@ -244,13 +269,13 @@ function download(name, blob) {
 
 // The disparities in px of the rectified image as PFM (infinite where there is none), as stereo-tap save writes them.
 view.pfm = () => {
-  const frame = view.moment.frame, width = Math.ceil(frame.width / frame.step), height = Math.ceil(frame.height / frame.step);
+  const [width, height] = publishedSize(view.moment.frame), unitsPerPixel = view.moment.frame.units_per_pixel;
   const head = new TextEncoder().encode(`Pf\n${width} ${height}\n-1\n`);
   const body = new Float32Array(width * height);
   for (let y = 0; y < height; ++y) {
     for (let x = 0; x < width; ++x) {
       const value = view.values[y * width + x];
-      body[(height - 1 - y) * width + x] = value < 0 ? Infinity : value / frame.units_per_pixel;
+      body[(height - 1 - y) * width + x] = value < 0 ? Infinity : value / unitsPerPixel;
     }
   }
   return new Blob([head, body]);
@@ -267,27 +292,37 @@ byId('save').addEventListener('click', () => {
 const pause = ms => new Promise(done => setTimeout(done, ms));
 
 async function run() {
-  let after = 0;
+  let after = 0, coming = null;   // the answer on its way
+  let last = Promise.resolve();   // the moment before, until it is shown; one is decoded beside it
+  const ask = () => fetch(`moment?after=${after}&step=${byId('half').checked ? 2 : 1}`, { cache: 'no-store' });
   for (;;) {
     if (view.paused) {
+      coming = null;
       await pause(100);
       continue;
     }
     try {
-      const answer = await fetch(`moment?after=${after}&step=${byId('half').checked ? 2 : 1}`, { cache: 'no-store' });
+      const answer = await (coming || ask());
+      coming = null;
       if (answer.status === 205) after = 0;
       if (answer.status !== 200) {
         if (answer.status !== 204) await pause(500);
         if (!view.moment) byId('state').textContent = 'nothing from stereod yet';
         continue;
       }
-      const decoded = await decode(await answer.arrayBuffer());
-      after = decoded.moment.number;
-      if (!view.paused) show(decoded);
+      const buffer = await answer.arrayBuffer(), [moment, at] = momentOf(buffer);
+      after = moment.number;
+      coming = ask();
+      const shown = Promise.all([decode(moment, buffer, at), last]).then(([decoded]) => view.paused || show(decoded));
+      for (const later of [coming, shown]) later.catch(() => {});  // heard of when it is waited for
+      await last;
+      last = shown;
     } catch (error) {
       byId('state').textContent = 'connection lost, trying again';
       byId('state').className = 'state';
       after = 0;
+      coming = null;
+      last = Promise.resolve();
       await pause(500);
     }
   }
