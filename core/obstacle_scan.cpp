@@ -1,7 +1,9 @@
 #include "core/obstacle_scan.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "core/depth.h"
@@ -17,15 +19,33 @@ std::int16_t to_units(double px, int units_per_pixel) {
   return static_cast<std::int16_t>(std::clamp(std::floor(px * units_per_pixel), 0.0, kMost));
 }
 
+// Pixels looked at together, in one vector of the compiler's: every CPU here has 16-byte ones.
+constexpr int kColumns = 8;
+using Values [[gnu::vector_size(2 * kColumns)]] = std::int16_t;
+
+Values load(const std::int16_t* p) {
+  Values values;
+  std::memcpy(&values, p, sizeof(values));
+  return values;
+}
+void store(std::int16_t* p, Values values) { std::memcpy(p, &values, sizeof(values)); }
+
+bool any_of(Values mask) {
+  std::uint64_t halves[2];
+  std::memcpy(halves, &mask, sizeof(halves));
+  return (halves[0] | halves[1]) != 0;
+}
+
 }  // namespace
 
 ObstacleScan::ObstacleScan(const ScanOptions& options, const ScanCamera& camera, const GroundPlane& ground)
     : options_(options),
       camera_(camera),
+      units_shift_(std::countr_zero(static_cast<unsigned>(camera.units_per_pixel))),
       bins_per_group_(camera.min_disparity + camera.disparities + 1),
       above_(static_cast<std::size_t>(camera.size.height)),
       below_(static_cast<std::size_t>(camera.size.height)),
-      group_of_(static_cast<std::size_t>(camera.size.width)),
+      first_bin_(static_cast<std::size_t>(camera.size.width)),
       group_columns_(static_cast<std::size_t>(options.rays)),
       seen_(static_cast<std::size_t>(camera.size.width)),
       bins_(static_cast<std::size_t>(options.rays) * static_cast<std::size_t>(bins_per_group_)) {
@@ -40,7 +60,7 @@ ObstacleScan::ObstacleScan(const ScanOptions& options, const ScanCamera& camera,
   for (int x = 0; x < camera.size.width; ++x) {
     const double angle = std::atan((camera.cx - x - 0.5) / camera.fx);
     const int group = std::clamp(static_cast<int>((angle - right) / step), 0, options.rays - 1);
-    group_of_[static_cast<std::size_t>(x)] = static_cast<std::int16_t>(group);
+    first_bin_[static_cast<std::size_t>(x)] = group * bins_per_group_;
     RowRange& columns = group_columns_[static_cast<std::size_t>(group)];
     if (columns.count() == 0) columns.first = x;
     columns.end = x + 1;
@@ -85,32 +105,28 @@ void ObstacleScan::set_ground(const GroundPlane& ground) noexcept {
 
 void ObstacleScan::add_row(int y, const std::int16_t* disparity) noexcept {
   if (y % kRowStep != 0) return;
-  const int width = camera_.size.width;
-  for (int x = 0; x < width; ++x) {
-    seen_[static_cast<std::size_t>(x)] =
-        static_cast<std::uint16_t>(seen_[static_cast<std::size_t>(x)] + (disparity[x] >= 0 ? 1 : 0));
-  }
-  ++rows_;
+  // Copies, because what is stored might lie in the members for all that the compiler knows.
+  const int width = camera_.size.width, bins_per_group = bins_per_group_, shift = units_shift_;
   const std::int16_t above = above_[static_cast<std::size_t>(y)], below = below_[static_cast<std::size_t>(y)];
-  if (above >= below) return;
-  constexpr int kBlock = 16;  // pixels of which usually none counts, found out by vector instructions
-  const int units = camera_.units_per_pixel;
-  for (int first = 0; first < width; first += kBlock) {
-    const int end = std::min(first + kBlock, width);
-    int any = 0;
-    for (int x = first; x < end; ++x) any |= (disparity[x] > above) & (disparity[x] <= below);
-    if (any == 0) continue;
-    for (int x = first; x < end; ++x) {
-      const int value = disparity[x];
-      if (value <= above || value > below) continue;
-      const int bin = value / units;
-      if (bin >= bins_per_group_) continue;
-      Bin& counted = bins_of(group_of_[static_cast<std::size_t>(x)])[bin];
-      ++counted.count;
-      counted.sum_units += value;
-      counted.sum_y += y;
+  const std::int32_t* const first_bin = first_bin_.data();
+  std::int16_t* const seen = seen_.data();
+  Bin* const bins = bins_.data();
+  const auto count_from = [=](int x, int end) {
+    for (; x < end; x += kColumnStep) {
+      const int value = disparity[x], bin = value >> shift;
+      if (value > above && value <= below && bin < bins_per_group)
+        bins[first_bin[x] + bin] += Bin{1, value, y};
     }
+  };
+  int x = 0;
+  for (; x + kColumns <= width; x += kColumns) {
+    const Values values = load(disparity + x);
+    store(seen + x, load(seen + x) - (values >= Values{}));                         // true is −1
+    if (any_of((values > above) & (values <= below))) count_from(x, x + kColumns);  // mostly none counts
   }
+  count_from(x, width);
+  for (; x < width; ++x) seen[x] = static_cast<std::int16_t>(seen[x] + (disparity[x] >= 0 ? 1 : 0));
+  ++rows_;
 }
 
 const ScanResult& ObstacleScan::finish() noexcept {
@@ -128,22 +144,22 @@ const ScanResult& ObstacleScan::finish() noexcept {
   }
   look_ahead();
   std::fill(bins_.begin(), bins_.end(), Bin());
-  std::fill(seen_.begin(), seen_.end(), std::uint16_t{0});
+  std::fill(seen_.begin(), seen_.end(), std::int16_t{0});
   rows_ = 0;
   return result_;
 }
 
 bool ObstacleScan::nearest_obstacle(int group, Obstacle& obstacle) noexcept {
-  const Bin* bins = bins_of(group);
-  const int needed = std::max(1, options_.min_support / kRowStep);
+  const Bin* bins = bins_.data() + static_cast<std::ptrdiff_t>(group) * bins_per_group_;
+  constexpr int kPixels = kRowStep * kColumnStep;  // that each one looked at stands for
+  const int needed = (options_.min_support + kPixels - 1) / kPixels;
   for (int bin = bins_per_group_ - 1; bin > 0; --bin) {
-    const Bin &one = bins[bin], &other = bins[bin - 1];
-    const int count = one.count + other.count;
+    const Bin both = bins[bin] + bins[bin - 1];
+    const int count = both[kCount];
     if (count < needed) continue;
-    obstacle.disparity_px =
-        static_cast<double>(one.sum_units + other.sum_units) / count / camera_.units_per_pixel;
-    obstacle.y = static_cast<double>(one.sum_y + other.sum_y) / count;
-    obstacle.pixels = count * kRowStep;
+    obstacle.disparity_px = static_cast<double>(both[kSumUnits]) / count / camera_.units_per_pixel;
+    obstacle.y = static_cast<double>(both[kSumY]) / count;
+    obstacle.pixels = count * kPixels;
     return true;
   }
   return false;

@@ -21,9 +21,9 @@ struct ScanCamera {
   double fx = 0, fy = 0, cx = 0, cy = 0;  ///< px
   double baseline_m = 0;
   double disparity_offset = 0;  ///< px, see disparity_offset_px()
-  int units_per_pixel = 1;
-  int min_disparity = 0;  ///< px
-  int disparities = 1;    ///< px
+  int units_per_pixel = 1;      ///< a power of two
+  int min_disparity = 0;        ///< px
+  int disparities = 1;          ///< px
 };
 
 struct ScanOptions {
@@ -51,8 +51,9 @@ struct ScanResult {
 /// ground is between lowest_m and highest_m, and its disparity more than one pixel above that of the ground,
 /// so that the floor's own noise makes none; both are one pair of thresholds a row (v-disparity: Labayrade,
 /// Aubert and Tarel, 2002). The pixels of a direction are counted by disparity, and the nearest disparity
-/// with enough of them is the obstacle (the column-wise counting of Badino's stixels, 2009). Every second row
-/// is looked at. Allocates nothing after its construction.
+/// with enough of them is the obstacle (the column-wise counting of Badino's stixels, 2009). Of the
+/// rows every fourth is looked at, of the columns, for the sake of poles, every second. Allocates nothing
+/// after its construction.
 class ObstacleScan {
  public:
   ObstacleScan(const ScanOptions& options, const ScanCamera& camera, const GroundPlane& ground);
@@ -68,19 +69,17 @@ class ObstacleScan {
   const ScanResult& finish() noexcept;
 
  private:
-  static constexpr int kRowStep = 2;
+  static constexpr int kRowStep = 4, kColumnStep = 2;
 
-  struct Bin {  // pixels of a column group with one whole-pixel disparity
-    std::int32_t count = 0;
-    std::int32_t sum_units = 0;
-    std::int32_t sum_y = 0;
-  };
+  // Pixels of a column group with one whole-pixel disparity: how many, and sums of their units and rows.
+  using Bin [[gnu::vector_size(16)]] = std::int32_t;
+  enum { kCount, kSumUnits, kSumY };
+
   struct Obstacle {
     double disparity_px, y;
     int pixels;
   };
 
-  Bin* bins_of(int group) { return bins_.data() + static_cast<std::ptrdiff_t>(group) * bins_per_group_; }
   bool nearest_obstacle(int group, Obstacle& obstacle) noexcept;
   void enter(int group, const Obstacle& obstacle) noexcept;
   void look_ahead() noexcept;
@@ -91,11 +90,11 @@ class ObstacleScan {
   const ScanCamera camera_;
   GroundPlane ground_;
   double sin_pitch_ = 0, cos_pitch_ = 1;
-  int bins_per_group_;
+  int units_shift_, bins_per_group_;
   std::vector<std::int16_t> above_, below_;  // of each row: a pixel counts if above < units ≤ below
-  std::vector<std::int16_t> group_of_;       // of each column
+  std::vector<std::int32_t> first_bin_;      // of each column's group
   std::vector<RowRange> group_columns_;
-  std::vector<std::uint16_t> seen_;  // pixels with a disparity in each column
+  std::vector<std::int16_t> seen_;  // pixels with a disparity in each column
   std::vector<Bin> bins_;
   int rows_ = 0;  // looked at
   ScanResult result_;
