@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "core/depth.h"
+#include "core/eight_values.h"
 
 namespace stereod {
 namespace {
@@ -17,23 +17,6 @@ constexpr double kLeastSeen = 0.05;  // share of a direction's pixels; less says
 std::int16_t to_units(double px, int units_per_pixel) {
   constexpr double kMost = std::numeric_limits<std::int16_t>::max();
   return static_cast<std::int16_t>(std::clamp(std::floor(px * units_per_pixel), 0.0, kMost));
-}
-
-// Pixels looked at together, in one vector of the compiler's: every CPU here has 16-byte ones.
-constexpr int kColumns = 8;
-using Values [[gnu::vector_size(2 * kColumns)]] = std::int16_t;
-
-Values load(const std::int16_t* p) {
-  Values values;
-  std::memcpy(&values, p, sizeof(values));
-  return values;
-}
-void store(std::int16_t* p, Values values) { std::memcpy(p, &values, sizeof(values)); }
-
-bool any_of(Values mask) {
-  std::uint64_t halves[2];
-  std::memcpy(halves, &mask, sizeof(halves));
-  return (halves[0] | halves[1]) != 0;
 }
 
 }  // namespace
@@ -119,10 +102,10 @@ void ObstacleScan::add_row(int y, const std::int16_t* disparity) noexcept {
     }
   };
   int x = 0;
-  for (; x + kColumns <= width; x += kColumns) {
-    const Values values = load(disparity + x);
-    store(seen + x, load(seen + x) - (values >= Values{}));                         // true is −1
-    if (any_of((values > above) & (values <= below))) count_from(x, x + kColumns);  // mostly none counts
+  for (; x + kEight <= width; x += kEight) {
+    const EightValues values = load_eight(disparity + x);
+    store_eight(seen + x, load_eight(seen + x) - (values >= EightValues{}));
+    if (any_of((values > above) & (values <= below))) count_from(x, x + kEight);  // mostly none counts
   }
   count_from(x, width);
   for (; x < width; ++x) seen[x] = static_cast<std::int16_t>(seen[x] + (disparity[x] >= 0 ? 1 : 0));

@@ -139,8 +139,10 @@ struct VectorAvx2 : BytesX86<2> {
            0xFFFF;
   }
 
-  static int count8(Reg mask) {
-    return __builtin_popcount(static_cast<unsigned>(_mm256_movemask_epi8(mask)));
+  static int sum8(Reg a) {
+    const Reg sums = _mm256_sad_epu8(a, _mm256_setzero_si256());
+    const __m128i two = _mm_add_epi32(_mm256_castsi256_si128(sums), _mm256_extracti128_si256(sums, 1));
+    return _mm_cvtsi128_si32(_mm_add_epi32(two, _mm_unpackhi_epi64(two, two)));
   }
 
  private:

@@ -140,8 +140,8 @@ struct VectorNeon {
     const std::uint64_t mask = vget_lane_u64(vreinterpret_u64_u8(packed), 0);
     return static_cast<std::uint32_t>(least) << 8 | static_cast<std::uint32_t>(__builtin_ctzll(mask) / 4);
   }
-  static int count8(Reg mask) {
-    const uint64x2_t sums = vpaddlq_u32(vpaddlq_u16(vpaddlq_u8(vandq_u8(bytes(mask), vdupq_n_u8(1)))));
+  static int sum8(Reg a) {
+    const uint64x2_t sums = vpaddlq_u32(vpaddlq_u16(vpaddlq_u8(bytes(a))));
     return static_cast<int>(vgetq_lane_u64(sums, 0) + vgetq_lane_u64(sums, 1));
   }
   static void split32(const std::uint8_t* in, std::uint8_t* even, std::uint8_t* odd) {

@@ -208,12 +208,12 @@ struct VectorScalar {
     }
     return least;
   }
-  /// How many lanes have all bits; the others have none.
-  static int count8(Reg mask) {
-    const auto bytes = reinterpret_cast<Bytes>(mask);
-    int count = 0;
-    for (int i = 0; i < 16; ++i) count += bytes[i] & 1;
-    return count;
+  /// The sum of all lanes.
+  static int sum8(Reg a) {
+    const auto bytes = reinterpret_cast<Bytes>(a);
+    int sum = 0;
+    for (int i = 0; i < 16; ++i) sum += bytes[i];
+    return sum;
   }
   /// 32 bytes, the even and the odd ones.
   static void split32(const std::uint8_t* in, std::uint8_t* even, std::uint8_t* odd) {

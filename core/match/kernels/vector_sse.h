@@ -158,7 +158,10 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
            static_cast<std::uint32_t>(__builtin_ctz(equal));
   }
 
-  static int count8(Reg mask) { return __builtin_popcount(static_cast<unsigned>(_mm_movemask_epi8(mask))); }
+  static int sum8(Reg a) {
+    const Reg sums = _mm_sad_epu8(a, _mm_setzero_si128());
+    return _mm_cvtsi128_si32(_mm_add_epi32(sums, _mm_unpackhi_epi64(sums, sums)));
+  }
 
  private:
   // From pairs of bytes, raised by the cap; packing will clip what is below 0.

@@ -208,9 +208,11 @@ class Definition {
     const int after = sums[at(k + 1)];
     const int curvature = before + after - 2 * sums[at(k)];
     if (curvature == 0) return 16 * k;
-    const int reciprocal = (65536 + curvature / 2) / curvature;
-    return 16 * k + ((8 * (before - after) * reciprocal + 32768) >> 16);
+    return 16 * k + rounded(8 * (before - after), curvature);
   }
+
+  // Halves are rounded up; |a| ≤ 8 · b.
+  static int rounded(int a, int b) { return (2 * (a + 8 * b) + b) / (2 * b) - 8; }
 
   bool is_masked(int grid_x, int grid_y, int k) const {
     const int y = image_row(grid_y);

@@ -1,24 +1,19 @@
 #include "core/match/semiglobal/grid_values.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "core/disparity.h"
+#include "core/eight_values.h"
 
 namespace stereod::semiglobal {
 namespace {
 
-// Values done at once, in one vector of the compiler's: every CPU here has 16-byte ones.
-constexpr int kColumns = 8;
-using Values [[gnu::vector_size(2 * kColumns)]] = GridValue;
+using Values = EightValues;
+constexpr int kColumns = kEight;
 static_assert(2 * kColumns <= kValueMargin);
 
-Values load(const GridValue* p) {
-  Values values;
-  std::memcpy(&values, p, sizeof(values));
-  return values;
-}
-void store(GridValue* p, Values values) { std::memcpy(p, &values, sizeof(values)); }
+Values load(const GridValue* p) { return load_eight(p); }
+void store(GridValue* p, Values values) { store_eight(p, values); }
 
 Values lesser(Values a, Values b) { return a < b ? a : b; }
 Values greater(Values a, Values b) { return a < b ? b : a; }
@@ -70,6 +65,10 @@ void median_grid_row(const GridValue* above, const GridValue* row, const GridVal
 
 void fill_grid_row(GridValue* row, int width) noexcept {
   for (int x = 0; x < width;) {
+    if (x % kColumns == 0 && x + kColumns <= width && !any_of(load(row + x) < Values{})) {
+      x += kColumns;
+      continue;
+    }
     if (row[x] >= 0) {
       ++x;
       continue;
@@ -105,35 +104,37 @@ void disparities_of_row(const GridValue* row, int width, const Disparities& what
   const auto unmatched = static_cast<GridValue>(what.fill ? 1 : kNone);
   const auto rounding = static_cast<GridValue>(what.subpixel ? 0 : kSubpixelUnits / 2);
   const int shift = what.subpixel ? 0 : 4;
-  const Values column = {0, 1, 2, 3, 4, 5, 6, 7};
-  constexpr int kFar = 20'000;  // columns; no disparity is as large
-  for (int x = 0; x < width; x += kColumns) {
-    const Values value = load(row + x);
-    const Values units = value >> 1;
-    // Measured, but outside the right picture: that is no measurement.
-    const Values match = column + static_cast<GridValue>(std::min(x - what.min_disparity, kFar));
-    const Values outside = match < ((units + kSubpixelUnits / 2) >> 4);
-    const Values judged = value | (outside & unmatched);
+  const auto finished = [=](Values judged, Values units) {
     const Values disparity = ((units + rounding) >> shift) + first;
     const Values marked = (judged & 1) != 0 ? -2 - disparity : disparity;
-    store(out + x, judged < 0 ? Values{} + kInvalidDisparity : marked);
+    return judged < 0 ? Values{} + kInvalidDisparity : marked;
+  };
+  const Values column = {0, 1, 2, 3, 4, 5, 6, 7};
+  int x = 0;
+  // Measured, but outside the right picture: that is no measurement. Further right it cannot be.
+  for (; x < std::min(width, what.min_disparity + what.disparities); x += kColumns) {
+    const Values value = load(row + x);
+    const Values units = value >> 1;
+    const Values match = column + static_cast<GridValue>(x - what.min_disparity);
+    const Values outside = match < ((units + kSubpixelUnits / 2) >> 4);
+    store(out + x, finished(value | (outside & unmatched), units));
+  }
+  for (; x < width; x += kColumns) {
+    const Values value = load(row + x);
+    store(out + x, finished(value, value >> 1));
   }
 }
 
 void step_limits(const std::uint8_t* grey, int width, int step, int p2, std::uint8_t* limits) noexcept {
-  using Bytes [[gnu::vector_size(kColumns)]] = std::uint8_t;
   const auto most = static_cast<GridValue>(p2);
   const auto points = [&](int x) {
     if (step == 2) return load(reinterpret_cast<const GridValue*>(grey + 2 * x)) & 0xFF;
-    Bytes bytes;
-    std::memcpy(&bytes, grey + x, sizeof(bytes));
-    return __builtin_convertvector(bytes, Values);
+    return load_eight(grey + x);
   };
   for (int x = 0; x < width; x += kColumns) {
     const Values change = points(x) - points(x - 1);
     const Values left_over = most - greater(change, -change);
-    const Bytes bytes = __builtin_convertvector(greater(left_over, Values{}), Bytes);
-    std::memcpy(limits + x, &bytes, sizeof(bytes));
+    store_eight(limits + x, greater(left_over, Values{}));
   }
 }
 

@@ -32,7 +32,7 @@ void between_rows(const GridValue* a, const GridValue* b, int width, GridValue* 
 
 /// What of the options decides how values become disparities.
 struct Disparities {
-  int min_disparity;
+  int min_disparity, disparities;
   bool subpixel;  ///< 1/16 px, else whole ones
   bool fill;      ///< what was measured outside the right picture counts as filled, else as not there
 };

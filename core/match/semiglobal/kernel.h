@@ -88,8 +88,9 @@ struct Kernel {
   /// Adds the paths from the left and finds the winners.
   void (*paths_from_left)(const Shape&, const PathRows&);
 
-  /// How many of the sums of a point are at most `limit`.
-  int (*count_at_most)(const Shape&, const std::uint8_t* sums, int limit);
+  /// How many of the sums of each point of a row are at most its limit.
+  void (*count_at_most)(const Shape&, const std::uint8_t* sums, const std::uint8_t* limits,
+                        std::int16_t* counts);
 };
 
 /// The kernel of an instruction set that resolve_isa() has found.

@@ -45,6 +45,18 @@ class Dispatch {
         return Paths<V, 0>::from_left(shape, rows);
     }
   }
+
+  static void count_at_most(const Shape& shape, const std::uint8_t* sums, const std::uint8_t* limits,
+                            std::int16_t* counts) {
+    switch (shape.vectors) {
+      case 2:
+        return semiglobal::count_at_most<V, 2>(shape, sums, limits, counts);
+      case 4:
+        return semiglobal::count_at_most<V, 4>(shape, sums, limits, counts);
+      default:
+        return semiglobal::count_at_most<V, 0>(shape, sums, limits, counts);
+    }
+  }
 };
 
 /// The table entry of an instruction set.
@@ -57,7 +69,7 @@ constexpr Kernel make_kernel() {
           CostRows<V>::row,
           Dispatch<V>::paths_from_right,
           Dispatch<V>::paths_from_left,
-          count_at_most<V>};
+          Dispatch<V>::count_at_most};
 }
 
 }  // namespace stereod::semiglobal

@@ -109,15 +109,21 @@ class Paths {
   }
 };
 
-/// Kernel::count_at_most.
-template <typename V>
-int count_at_most(const Shape& shape, const std::uint8_t* sums, int limit) {
-  const typename V::Reg most = V::broadcast8(static_cast<std::uint8_t>(limit));
-  int count = 0;
-  for (int k = 0; k < shape.vectors; ++k) {
-    count += V::count8(V::at_most8(V::load_aligned(sums + k * V::kBytes), most));
+/// Kernel::count_at_most for disparities in kVectors vectors; 0: in any number.
+template <typename V, int kVectors>
+void count_at_most(const Shape& shape, const std::uint8_t* sums, const std::uint8_t* limits,
+                   std::int16_t* counts) {
+  using Reg = typename V::Reg;
+  const int vectors = kVectors > 0 ? kVectors : shape.vectors, width = shape.grid_width();
+  for (int x = 0; x < width; ++x) {
+    const Reg limit = V::broadcast8(limits[x]);
+    Reg count = V::broadcast8(0);
+#pragma GCC unroll 4
+    for (int k = 0; k < vectors; ++k, sums += V::kBytes) {
+      count = V::sub8(count, V::at_most8(V::load_aligned(sums), limit));  // less −1
+    }
+    counts[x] = static_cast<std::int16_t>(V::sum8(count));
   }
-  return count;
 }
 
 }  // namespace stereod::semiglobal

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/eight_values.h"
 #include "core/match/isa.h"
 
 namespace stereod {
@@ -47,7 +48,7 @@ SemiglobalMatcher::SemiglobalMatcher(const MatcherOptions& options, Size image)
       padding_(static_cast<std::size_t>(shape_.point_bytes())),
       smoothed_(shape_.grid_width() * shape_.point_bytes(), 2),
       sums_(shape_.grid_width() * shape_.point_bytes(), 2),
-      winners_(shape_.grid_width(), 2),
+      winners_(shape_.grid_width() + kEight, 2),
       tests_(options_, shape_, kernel_),
       raw_(shape_.grid_width() + 2 * kValues, kRawRows),
       median_(shape_.grid_width() + 2 * kValues, 1),
@@ -177,8 +178,9 @@ void SemiglobalMatcher::write_grid_row(int g, GridValue* row) noexcept {
 
 void SemiglobalMatcher::write_row(int y, const GridValue* row) noexcept {
   std::int16_t* const out = output_rows_.row(y) + kValues;
-  semiglobal::disparities_of_row(row, image_.width,
-                                 {options_.min_disparity, options_.subpixel, options_.fill}, out);
+  semiglobal::disparities_of_row(
+      row, image_.width, {options_.min_disparity, options_.disparities, options_.subpixel, options_.fill},
+      out);
   mask_row(y, out);
   final_end_ = y + 1;
 }

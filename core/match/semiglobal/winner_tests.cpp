@@ -2,13 +2,42 @@
 
 #include <algorithm>
 
+#include "core/eight_values.h"
+
 namespace stereod::semiglobal {
 namespace {
 
+using Four [[gnu::vector_size(16)]] = std::int32_t;
+using FourReal [[gnu::vector_size(16)]] = float;
+
+constexpr int kMost = 255;  // a sum
+
 std::size_t size(int value) { return static_cast<std::size_t>(value); }
 
-constexpr int kMostCurvature = 2 * 255;
-constexpr int kReciprocalOne = 65536;
+// ⌊8 · slope / curvature + 1/2⌋; |slope| ≤ curvature. Exact: a quotient that is no multiple of 1/2 is further
+// from the next one than a float's rounding.
+FourReal rounded_up_by_8(Four slope, Four curvature) {
+  const FourReal quotient =
+      __builtin_convertvector(8 * slope, FourReal) / __builtin_convertvector(curvature, FourReal);
+  return quotient + 8.5F;  // above 0, where to cut off is to round
+}
+
+EightValues sixteenths(EightValues slope, EightValues curvature) {
+  const EightValues divisor = curvature > EightValues{} ? curvature : EightValues{} + std::int16_t{1};
+  const auto part = [&](auto four_of) {
+    return __builtin_convertvector(rounded_up_by_8(four_of(slope), four_of(divisor)), Four) - 8;
+  };
+  const auto widened = [](EightValues zipped_low) { return reinterpret_cast<Four>(zipped_low); };
+  const auto lower = [&](EightValues v) {
+    return widened(__builtin_shufflevector(v, v, 0, 0, 1, 1, 2, 2, 3, 3)) >> 16;
+  };
+  const auto upper = [&](EightValues v) {
+    return widened(__builtin_shufflevector(v, v, 4, 4, 5, 5, 6, 6, 7, 7)) >> 16;
+  };
+  const auto low = reinterpret_cast<EightValues>(part(lower)),
+             high = reinterpret_cast<EightValues>(part(upper));
+  return __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
+}
 
 }  // namespace
 
@@ -16,12 +45,21 @@ WinnerTests::WinnerTests(const MatcherOptions& options, const Shape& shape, cons
     : options_(options),
       shape_(shape),
       kernel_(kernel),
-      reciprocals_(kMostCurvature + 1),
       before_(size(shape.disparities)),
       after_(size(shape.disparities)),
-      index_(size(shape.grid_width())),
-      claims_(size(shape.grid_width())) {
-  for (int i = 1; i <= kMostCurvature; ++i) reciprocals_[size(i)] = (kReciprocalOne + i / 2) / i;
+      index_(size(shape.grid_width() + kEight)),
+      sum_before_(index_.size()),
+      sum_after_(index_.size()),
+      standing_(index_.size()),
+      limits_(index_.size()),
+      counts_(index_.size()),
+      claimed_(index_.size()),
+      claims_(index_.size()),
+      limit_of_(kMost + 1) {
+  for (int least = 0; least <= kMost; ++least) {
+    const int limit = least + least * options.uniqueness_ratio / 100;
+    limit_of_[size(least)] = static_cast<std::uint8_t>(std::min(limit, kMost));
+  }
   const int last = shape.disparities - 1;
   for (int k = 0; k <= last; ++k) {  // the first and the last have the same one on both sides, so no slope
     const int before = k == 0 ? std::min(1, last) : k - 1;
@@ -33,42 +71,43 @@ WinnerTests::WinnerTests(const MatcherOptions& options, const Shape& shape, cons
 
 void WinnerTests::write(const std::uint8_t* sums, const std::uint16_t* winners, const std::uint8_t* left_mask,
                         const std::uint8_t* right_mask, GridValue* out) noexcept {
-  interpolate(sums, winners, out);
+  find_winners(sums, winners);
+  interpolate(winners, out);
   if (options_.left_right_max_diff >= 0) reject_contested(out);
   if (options_.uniqueness_ratio > 0) reject_ambiguous(sums, winners, out);
   if (left_mask != nullptr || right_mask != nullptr) reject_masked(left_mask, right_mask, out);
 }
 
-void WinnerTests::interpolate(const std::uint8_t* sums, const std::uint16_t* winners,
-                              GridValue* out) noexcept {
+void WinnerTests::find_winners(const std::uint8_t* sums, const std::uint16_t* winners) noexcept {
   switch (shape_.vectors) {  // as constants, two to four make it a third shorter
     case 2:
-      return interpolate_among<2>(sums, winners, out);
+      return find_winners_among<2>(sums, winners);
     case 4:
-      return interpolate_among<4>(sums, winners, out);
+      return find_winners_among<4>(sums, winners);
     default:
-      return interpolate_among<0>(sums, winners, out);
+      return find_winners_among<0>(sums, winners);
   }
 }
 
-// Also notes which right points are claimed, and leaves out winners outside the right picture.
+// What has to be looked up point by point, and which right points are claimed.
 template <int kVectors>
-void WinnerTests::interpolate_among(const std::uint8_t* sums, const std::uint16_t* winners,
-                                    GridValue* out) noexcept {
+void WinnerTests::find_winners_among(const std::uint8_t* sums, const std::uint16_t* winners) noexcept {
   const int width = shape_.grid_width();
   const int vectors = kVectors > 0 ? kVectors : shape_.vectors;
   const std::ptrdiff_t lanes = shape_.lanes;
-  const int shift = shape_.column_step == 2 ? 1 : 0;
-  const int min_disparity = shape_.min_disparity;
+  const int shift = column_shift();
   const std::ptrdiff_t point_bytes = shape_.point_bytes();
   const std::uint8_t* const before = before_.data();
   const std::uint8_t* const after = after_.data();
-  const std::int32_t* const reciprocals = reciprocals_.data();
   std::uint8_t* const index = index_.data();
+  std::uint8_t* const sum_before = sum_before_.data();
+  std::uint8_t* const sum_after = sum_after_.data();
+  std::uint16_t* const claimed = claimed_.data();
   std::uint16_t* const claims = claims_.data();
   std::fill_n(claims, width, std::uint16_t{0xFFFF});
   const std::uint8_t* point = sums;
-  for (std::ptrdiff_t x = 0; x < width; ++x, point += point_bytes) {
+  int column = -shape_.min_disparity;
+  for (std::ptrdiff_t x = 0; x < width; ++x, point += point_bytes, column += 1 << shift) {
     const unsigned lane = winners[x] & 0xFFU;
     const unsigned least = winners[x] >> 8;
     unsigned k = lane * static_cast<unsigned>(vectors);
@@ -79,51 +118,68 @@ void WinnerTests::interpolate_among(const std::uint8_t* sums, const std::uint16_
       searching &= *place != least ? 1U : 0U;
       k += searching;
     }
-    const int b = point[before[k]];
-    const int a = point[after[k]];
-    const auto doubled = static_cast<int>(2 * least);
-    const int part = (8 * (b - a) * reciprocals[b + a - doubled] + kReciprocalOne / 2) >> 16;
-    const auto whole = static_cast<int>(k);
     index[x] = static_cast<std::uint8_t>(k);
-    const int match = (static_cast<int>(x) << shift) - min_disparity - whole;
-    out[x] = match < 0 ? kNone : static_cast<GridValue>(2 * (16 * whole + part));
+    sum_before[x] = point[before[k]];
+    sum_after[x] = point[after[k]];
+    const int match = column - static_cast<int>(k);
+    claimed[x] = 0;
     if (match < 0) continue;
-    std::uint16_t& standing = claims[static_cast<unsigned>(match) >> shift];
+    claimed[x] = static_cast<std::uint16_t>(static_cast<unsigned>(match) >> shift);
+    std::uint16_t& standing = claims[claimed[x]];
     const auto claim = static_cast<std::uint16_t>(least << 8 | k);
     standing = claim < standing ? claim : standing;
   }
 }
 
-void WinnerTests::reject_contested(GridValue* out) const noexcept {
-  const int width = shape_.grid_width();
-  const int shift = shape_.column_step == 2 ? 1 : 0;
-  const auto max_diff = static_cast<unsigned>(options_.left_right_max_diff);
-  const std::uint8_t* const index = index_.data();
-  const std::uint16_t* const claims = claims_.data();
-  for (int x = 0; x < width; ++x) {
-    const int match = (x << shift) - shape_.min_disparity - index[x];
-    const int standing = claims[std::max(match, 0) >> shift] & 0xFF;
-    // |difference| > max_diff, in one comparison; kNone has all bits set.
-    const bool differs = static_cast<unsigned>(standing - index[x]) + max_diff > 2 * max_diff;
-    out[x] = static_cast<GridValue>(out[x] | -static_cast<int>(differs));
+// Leaves out winners outside the right picture.
+void WinnerTests::interpolate(const std::uint16_t* winners, GridValue* out) const noexcept {
+  const int shift = column_shift();
+  constexpr int kFar = 20'000;  // columns; no disparity is as large
+  const EightValues columns = EightValues{0, 1, 2, 3, 4, 5, 6, 7} << shift;
+  for (int x = 0; x < shape_.grid_width(); x += kEight) {
+    const EightValues k = load_eight(index_.data() + x);
+    const EightValues least = load_eight(reinterpret_cast<const std::int16_t*>(winners + x)) >> 8 & 0xFF;
+    const EightValues before = load_eight(sum_before_.data() + x), after = load_eight(sum_after_.data() + x);
+    const EightValues value = 2 * (16 * k + sixteenths(before - after, before + after - 2 * least));
+    const auto column = static_cast<std::int16_t>(std::min((x << shift) - shape_.min_disparity, kFar));
+    store_eight(out + x, value | (columns + column < k));  // kNone has all bits set
   }
 }
 
+void WinnerTests::reject_contested(GridValue* out) noexcept {
+  const int width = shape_.grid_width();
+  const std::uint8_t* const index = index_.data();
+  const std::uint16_t* const claimed = claimed_.data();
+  const std::uint16_t* const claims = claims_.data();
+  std::uint8_t* const standing = standing_.data();
+#pragma GCC unroll 4
+  for (std::ptrdiff_t x = 0; x < width; ++x) standing[x] = static_cast<std::uint8_t>(claims[claimed[x]]);
+  const auto max_diff = static_cast<std::int16_t>(options_.left_right_max_diff);
+  for (int x = 0; x < width; x += kEight) {
+    const EightValues difference = load_eight(standing + x) - load_eight(index + x);
+    store_eight(out + x, load_eight(out + x) | (difference > max_diff) | (-difference > max_diff));
+  }
+}
+
+// Rivals are sums at most so much above the least one, other than that and those beside it.
 void WinnerTests::reject_ambiguous(const std::uint8_t* sums, const std::uint16_t* winners,
-                                   GridValue* out) const noexcept {
-  constexpr int kMost = 255;
-  const int padding = shape_.point_bytes() - shape_.disparities;  // they have the greatest sum there is
-  const int last = shape_.disparities - 1;
-  for (int x = 0; x < shape_.grid_width(); ++x, sums += shape_.point_bytes()) {
-    const int least = winners[x] >> 8;
-    const int limit = least + least * options_.uniqueness_ratio / 100;
-    const int k = index_[size(x)];
-    int rivals = kernel_.count_at_most(shape_, sums, std::min(limit, kMost));
-    if (limit >= kMost) rivals -= padding;
-    for (int beside = std::max(k - 1, 0); beside <= std::min(k + 1, last); ++beside) {
-      rivals -= sums[shape_.place(beside)] <= limit ? 1 : 0;
-    }
-    if (rivals > 0) out[x] = kNone;
+                                   GridValue* out) noexcept {
+  const int width = shape_.grid_width();
+  const std::uint8_t* const limit_of = limit_of_.data();
+  std::uint8_t* const limits = limits_.data();
+#pragma GCC unroll 4
+  for (std::ptrdiff_t x = 0; x < width; ++x) limits[x] = limit_of[winners[x] >> 8];
+  kernel_.count_at_most(shape_, sums, limits_.data(), counts_.data());
+  const auto padding =
+      static_cast<std::int16_t>(shape_.point_bytes() - shape_.disparities);  // all the greatest sum
+  const auto last = static_cast<std::int16_t>(shape_.disparities - 1);
+  for (int x = 0; x < width; x += kEight) {
+    const EightValues limit = load_eight(limits_.data() + x), k = load_eight(index_.data() + x);
+    // −1 where they are among those counted; at the ends it is one and the same.
+    const EightValues before = load_eight(sum_before_.data() + x) <= limit;
+    const EightValues after = (load_eight(sum_after_.data() + x) <= limit) & (k != 0) & (k != last);
+    const EightValues counted = load_eight(counts_.data() + x) - ((limit == kMost) & padding);
+    store_eight(out + x, load_eight(out + x) | (counted - 1 + before + after > EightValues{}));
   }
 }
 
@@ -140,8 +196,8 @@ void WinnerTests::reject_masked(const std::uint8_t* left_mask, const std::uint8_
 }
 
 std::size_t WinnerTests::scratch_bytes() const noexcept {
-  return reciprocals_.size() * sizeof(reciprocals_[0]) + before_.size() + after_.size() + index_.size() +
-         claims_.size() * sizeof(claims_[0]);
+  return before_.size() + after_.size() + 5 * index_.size() +
+         counts_.size() * (sizeof(counts_[0]) + sizeof(claimed_[0]) + sizeof(claims_[0])) + limit_of_.size();
 }
 
 }  // namespace stereod::semiglobal

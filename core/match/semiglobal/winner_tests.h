@@ -23,22 +23,28 @@ class WinnerTests {
   std::size_t scratch_bytes() const noexcept;
 
  private:
-  void interpolate(const std::uint8_t* sums, const std::uint16_t* winners, GridValue* out) noexcept;
+  void find_winners(const std::uint8_t* sums, const std::uint16_t* winners) noexcept;
   template <int kVectors>
-  void interpolate_among(const std::uint8_t* sums, const std::uint16_t* winners, GridValue* out) noexcept;
-  void reject_contested(GridValue* out) const noexcept;
-  void reject_ambiguous(const std::uint8_t* sums, const std::uint16_t* winners,
-                        GridValue* out) const noexcept;
+  void find_winners_among(const std::uint8_t* sums, const std::uint16_t* winners) noexcept;
+  void interpolate(const std::uint16_t* winners, GridValue* out) const noexcept;
+  void reject_contested(GridValue* out) noexcept;
+  void reject_ambiguous(const std::uint8_t* sums, const std::uint16_t* winners, GridValue* out) noexcept;
   void reject_masked(const std::uint8_t* left_mask, const std::uint8_t* right_mask,
                      GridValue* out) const noexcept;
+  int column_shift() const { return shape_.column_step == 2 ? 1 : 0; }
 
   const MatcherOptions& options_;
   const Shape& shape_;
   const Kernel& kernel_;
-  std::vector<std::int32_t> reciprocals_;     // 65536 / i, rounded
   std::vector<std::uint8_t> before_, after_;  // where a disparity's neighbours stand
-  std::vector<std::uint8_t> index_;           // the winning disparity of each point
-  std::vector<std::uint16_t> claims_;         // best sum · 256 + disparity for right points
+  // Of each point, and some more for whole vectors: the winning disparity, the sums before and after it, the
+  // disparity that stands for the right point it claims, the sum up to which others are its rivals, and how
+  // many sums are no higher.
+  std::vector<std::uint8_t> index_, sum_before_, sum_after_, standing_, limits_;
+  std::vector<std::int16_t> counts_;
+  std::vector<std::uint16_t> claimed_;  // the right point it claims
+  std::vector<std::uint16_t> claims_;   // best sum · 256 + disparity for right points
+  std::vector<std::uint8_t> limit_of_;  // sums up to which are rivals of each least one
 };
 
 }  // namespace stereod::semiglobal
