@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/disparity.h"
 #include "core/match/matcher_options.h"
+#include "core/match/semiglobal/grid_values.h"
 
 namespace stereod::semiglobal {
 
@@ -63,6 +65,12 @@ struct PathRows {
   std::uint16_t* winners[2];    ///< least sum · 256 + the first lane that has it in some vector
 };
 
+/// What is known of the winners of a row of points; a vector's worth more can be read.
+struct WinnerRow {
+  const std::uint16_t* winners;                        ///< as in PathRows
+  const std::uint8_t *index, *sum_before, *sum_after;  ///< the winning disparity, the sums beside it
+};
+
 /// One instruction set's kernel. The functions take rows of any alignment; costs, sums and padding are
 /// 64-byte aligned.
 struct Kernel {
@@ -91,6 +99,31 @@ struct Kernel {
   /// How many of the sums of each point of a row are at most its limit.
   void (*count_at_most)(const Shape&, const std::uint8_t* sums, const std::uint8_t* limits,
                         std::int16_t* counts);
+
+  /// The winners as values, to 1/16 px by a parabola-like fit (section 2.3 of docs/matcher.md); none for
+  /// those outside the right picture. Rows of values, here and below, have kValueMargin.
+  void (*interpolate_row)(const Shape&, const WinnerRow&, GridValue* out);
+
+  /// Median of the 3×3 values around each; the outermost columns stay. Where there is none a value stands for
+  /// less than any, so most of nine decide. Points without a value get one only if `fill`, marked as filled.
+  void (*median_row)(const GridValue* above, const GridValue* row, const GridValue* below, int width,
+                     bool fill, GridValue* out);
+
+  /// From the coarse grid's points to every column of the picture: between two of them stands what
+  /// between_rows() says. Writes one element after the row.
+  void (*widen_row)(GridValue* row, int image_width, GridValue* out);
+
+  /// What stands between two values, column by column: their average if they are less than 1.5 px apart, else
+  /// the lower one; the other one if one is not there.
+  void (*between_rows)(const GridValue* a, const GridValue* b, int width, GridValue* out);
+
+  /// From a row of values to disparities of the picture, as match() writes them.
+  void (*disparities_of_row)(const GridValue* row, int width, const Disparities&, std::int16_t* out);
+
+  /// What a larger step of the disparity costs from each point to the one at its left: p2 less the step in
+  /// grey levels, at least 0. `step` columns of the picture to a point, 1 or 2. Reads the picture, and
+  /// writes, up to 32 elements beyond the last point; the first one means nothing.
+  void (*step_limits)(const std::uint8_t* grey, int width, int step, int p2, std::uint8_t* limits);
 };
 
 /// The kernel of an instruction set that resolve_isa() has found.

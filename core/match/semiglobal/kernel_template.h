@@ -7,6 +7,7 @@
 
 #include "core/match/kernels/row_preparation.h"
 #include "core/match/semiglobal/cost_row.h"
+#include "core/match/semiglobal/grid_rows.h"
 #include "core/match/semiglobal/kernel.h"
 #include "core/match/semiglobal/paths.h"
 
@@ -69,7 +70,13 @@ constexpr Kernel make_kernel() {
           CostRows<V>::row,
           Dispatch<V>::paths_from_right,
           Dispatch<V>::paths_from_left,
-          Dispatch<V>::count_at_most};
+          Dispatch<V>::count_at_most,
+          GridRows<V>::interpolate,
+          GridRows<V>::median,
+          GridRows<V>::widen,
+          GridRows<V>::between,
+          GridRows<V>::disparities,
+          GridRows<V>::step_limits};
 }
 
 }  // namespace stereod::semiglobal

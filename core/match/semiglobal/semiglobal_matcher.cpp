@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/eight_values.h"
 #include "core/match/isa.h"
 
 namespace stereod {
@@ -48,7 +47,7 @@ SemiglobalMatcher::SemiglobalMatcher(const MatcherOptions& options, Size image)
       padding_(static_cast<std::size_t>(shape_.point_bytes())),
       smoothed_(shape_.grid_width() * shape_.point_bytes(), 2),
       sums_(shape_.grid_width() * shape_.point_bytes(), 2),
-      winners_(shape_.grid_width() + kEight, 2),
+      winners_(shape_.grid_width() + kValues, 2),
       tests_(options_, shape_, kernel_),
       raw_(shape_.grid_width() + 2 * kValues, kRawRows),
       median_(shape_.grid_width() + 2 * kValues, 1),
@@ -107,7 +106,7 @@ semiglobal::PixelRows SemiglobalMatcher::pixel_rows(RowRing<std::uint8_t>& input
 void SemiglobalMatcher::compare_row(int g) noexcept {
   const int y = 2 * g;
   pixel_costs_.write(pixel_rows(left_input_, y), pixel_rows(right_input_, y), cost_row(g));
-  semiglobal::step_limits(left_row(y), shape_.grid_width(), shape_.column_step, options_.p2, limits_.row(g));
+  kernel_.step_limits(left_row(y), shape_.grid_width(), shape_.column_step, options_.p2, limits_.row(g));
 }
 
 // Of an odd number of rows the last one is done together with one that nobody asks for.
@@ -153,7 +152,7 @@ void SemiglobalMatcher::finish_grid_row(int g) noexcept {
     } else if (g == matched_.first) {
       return;  // only there for the median of the next one
     } else {
-      semiglobal::median_grid_row(raw_row(g - 1), raw_row(g), raw_row(g + 1), width, options_.fill, row);
+      kernel_.median_row(raw_row(g - 1), raw_row(g), raw_row(g + 1), width, options_.fill, row);
     }
   }
   if (options_.fill) semiglobal::fill_grid_row(row, width);
@@ -162,14 +161,14 @@ void SemiglobalMatcher::finish_grid_row(int g) noexcept {
 
 void SemiglobalMatcher::write_grid_row(int g, GridValue* row) noexcept {
   if (options_.grid == Grid::kCoarse) {
-    semiglobal::widen_grid_row(row, image_.width, wide_row(g));
+    kernel_.widen_row(row, image_.width, wide_row(g));
   } else {
     std::copy_n(row, image_.width, wide_row(g));
   }
   const int y = 2 * g;
   if (y - 1 >= output_.first && y - 1 < output_.end) {
     GridValue* between = between_.row(0) + kValues;
-    semiglobal::between_rows(wide_row(g - 1), wide_row(g), image_.width, between);
+    kernel_.between_rows(wide_row(g - 1), wide_row(g), image_.width, between);
     write_row(y - 1, between);
   }
   if (y >= output_.first && y < output_.end) write_row(y, wide_row(g));
@@ -178,9 +177,9 @@ void SemiglobalMatcher::write_grid_row(int g, GridValue* row) noexcept {
 
 void SemiglobalMatcher::write_row(int y, const GridValue* row) noexcept {
   std::int16_t* const out = output_rows_.row(y) + kValues;
-  semiglobal::disparities_of_row(
-      row, image_.width, {options_.min_disparity, options_.disparities, options_.subpixel, options_.fill},
-      out);
+  kernel_.disparities_of_row(row, image_.width,
+                             {options_.min_disparity, options_.disparities, options_.subpixel, options_.fill},
+                             out);
   mask_row(y, out);
   final_end_ = y + 1;
 }

@@ -7,37 +7,9 @@
 namespace stereod::semiglobal {
 namespace {
 
-using Four [[gnu::vector_size(16)]] = std::int32_t;
-using FourReal [[gnu::vector_size(16)]] = float;
-
 constexpr int kMost = 255;  // a sum
 
 std::size_t size(int value) { return static_cast<std::size_t>(value); }
-
-// ⌊8 · slope / curvature + 1/2⌋; |slope| ≤ curvature. Exact: a quotient that is no multiple of 1/2 is further
-// from the next one than a float's rounding.
-FourReal rounded_up_by_8(Four slope, Four curvature) {
-  const FourReal quotient =
-      __builtin_convertvector(8 * slope, FourReal) / __builtin_convertvector(curvature, FourReal);
-  return quotient + 8.5F;  // above 0, where to cut off is to round
-}
-
-EightValues sixteenths(EightValues slope, EightValues curvature) {
-  const EightValues divisor = curvature > EightValues{} ? curvature : EightValues{} + std::int16_t{1};
-  const auto part = [&](auto four_of) {
-    return __builtin_convertvector(rounded_up_by_8(four_of(slope), four_of(divisor)), Four) - 8;
-  };
-  const auto widened = [](EightValues zipped_low) { return reinterpret_cast<Four>(zipped_low); };
-  const auto lower = [&](EightValues v) {
-    return widened(__builtin_shufflevector(v, v, 0, 0, 1, 1, 2, 2, 3, 3)) >> 16;
-  };
-  const auto upper = [&](EightValues v) {
-    return widened(__builtin_shufflevector(v, v, 4, 4, 5, 5, 6, 6, 7, 7)) >> 16;
-  };
-  const auto low = reinterpret_cast<EightValues>(part(lower)),
-             high = reinterpret_cast<EightValues>(part(upper));
-  return __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
-}
 
 }  // namespace
 
@@ -47,7 +19,7 @@ WinnerTests::WinnerTests(const MatcherOptions& options, const Shape& shape, cons
       kernel_(kernel),
       before_(size(shape.disparities)),
       after_(size(shape.disparities)),
-      index_(size(shape.grid_width() + kEight)),
+      index_(size(shape.grid_width() + kValueMargin)),
       sum_before_(index_.size()),
       sum_after_(index_.size()),
       standing_(index_.size()),
@@ -72,7 +44,7 @@ WinnerTests::WinnerTests(const MatcherOptions& options, const Shape& shape, cons
 void WinnerTests::write(const std::uint8_t* sums, const std::uint16_t* winners, const std::uint8_t* left_mask,
                         const std::uint8_t* right_mask, GridValue* out) noexcept {
   find_winners(sums, winners);
-  interpolate(winners, out);
+  kernel_.interpolate_row(shape_, {winners, index_.data(), sum_before_.data(), sum_after_.data()}, out);
   if (options_.left_right_max_diff >= 0) reject_contested(out);
   if (options_.uniqueness_ratio > 0) reject_ambiguous(sums, winners, out);
   if (left_mask != nullptr || right_mask != nullptr) reject_masked(left_mask, right_mask, out);
@@ -128,21 +100,6 @@ void WinnerTests::find_winners_among(const std::uint8_t* sums, const std::uint16
     std::uint16_t& standing = claims[claimed[x]];
     const auto claim = static_cast<std::uint16_t>(least << 8 | k);
     standing = claim < standing ? claim : standing;
-  }
-}
-
-// Leaves out winners outside the right picture.
-void WinnerTests::interpolate(const std::uint16_t* winners, GridValue* out) const noexcept {
-  const int shift = column_shift();
-  constexpr int kFar = 20'000;  // columns; no disparity is as large
-  const EightValues columns = EightValues{0, 1, 2, 3, 4, 5, 6, 7} << shift;
-  for (int x = 0; x < shape_.grid_width(); x += kEight) {
-    const EightValues k = load_eight(index_.data() + x);
-    const EightValues least = load_eight(reinterpret_cast<const std::int16_t*>(winners + x)) >> 8 & 0xFF;
-    const EightValues before = load_eight(sum_before_.data() + x), after = load_eight(sum_after_.data() + x);
-    const EightValues value = 2 * (16 * k + sixteenths(before - after, before + after - 2 * least));
-    const auto column = static_cast<std::int16_t>(std::min((x << shift) - shape_.min_disparity, kFar));
-    store_eight(out + x, value | (columns + column < k));  // kNone has all bits set
   }
 }
 

@@ -26,7 +26,6 @@ class WinnerTests {
   void find_winners(const std::uint8_t* sums, const std::uint16_t* winners) noexcept;
   template <int kVectors>
   void find_winners_among(const std::uint8_t* sums, const std::uint16_t* winners) noexcept;
-  void interpolate(const std::uint16_t* winners, GridValue* out) const noexcept;
   void reject_contested(GridValue* out) noexcept;
   void reject_ambiguous(const std::uint8_t* sums, const std::uint16_t* winners, GridValue* out) noexcept;
   void reject_masked(const std::uint8_t* left_mask, const std::uint8_t* right_mask,
