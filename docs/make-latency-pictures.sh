@@ -27,5 +27,4 @@ picture() {
   daemon=
 }
 picture frame-life.svg 'The defaults: 640×480, preset robust, two workers, spread 0.3' ''
-picture frame-life-early.svg 'No speckle filter, spread 0: rows leave as they are matched' \
-  $'matcher: {speckle_size: 0}\nlcm: {spread: 0}'
+picture frame-life-early.svg 'Spread 0: rows leave as they are matched' 'lcm: {spread: 0}'

@@ -48,6 +48,7 @@ export LCM_DEFAULT_URL='udpm://239.255.76.67:17669?ttl=0'
 cat >"$work/stereod.yaml" <<YAML
 cameras: {source: synthetic, fps: 15}
 scan: {enabled: true}
+publish: {depth: true, cloud: true}
 lcm: {prefix: SPY, left_image: jpeg}
 YAML
 "$bin/stereod" --config "$work/stereod.yaml" 2>"$work/stereod.err" &
@@ -73,17 +74,27 @@ DISPLAY=:$(cat "$work/display")
 export DISPLAY
 
 "$bin/stereod-spy" SPY_DISPARITY SPY_STATUS >"$work/spy.out" 2>&1 &
-children+=($!)
+spy=$!
+children+=("$spy")
 has_window() { xdotool search --name "$1" >/dev/null 2>&1; }
 wait_until has_window 'LCM Spy' || fail "no list of channels: $(cat "$work/spy.out")"
 wait_until has_window '^SPY_DISPARITY 640x480 [0-9.]+ frames/s [0-9]+ rows lost$' ||
   fail "no picture of the rows: $(cat "$work/spy.out")"
-wait_until has_window '^SPY_STATUS$' || fail "no window on the status: $(cat "$work/spy.out")"
+shows_fields() { has_window "^SPY_$1 [0-9.]+ messages/s, 0 ignored\$"; }
+wait_until shows_fields STATUS || fail "no window with the fields of the status: $(cat "$work/spy.out")"
 ! grep -qi exception "$work/spy.out" || fail "$(cat "$work/spy.out")"
 if [[ -n $screenshot ]]; then
   sleep 8  # for the charts to have something to show
   import -window root "$screenshot"
 fi
+kill "$spy"
+wait "$spy" || true
+"$bin/stereod-spy" SPY_FRAME SPY_SCAN SPY_CAMERA_INFO SPY_DEPTH SPY_CLOUD >"$work/fields.out" 2>&1 &
+children+=($!)
+for channel in FRAME SCAN CAMERA_INFO DEPTH CLOUD; do
+  wait_until shows_fields "$channel" || fail "no window with the fields of SPY_$channel: $(cat "$work/fields.out")"
+done
+! grep -qi exception "$work/fields.out" || fail "$(cat "$work/fields.out")"
 "$bin/stereod-spy" --no-such-option 2>"$work/usage" && fail "an unknown option was taken"
 grep -q "unknown option '--no-such-option'" "$work/usage" || fail "$(cat "$work/usage")"
 echo "stereod-spy shows what stereod publishes"

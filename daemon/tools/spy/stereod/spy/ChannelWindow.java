@@ -34,7 +34,7 @@ class ChannelWindow implements LCMSubscriber {
     private final PicturePanel panel = new PicturePanel();
     private ObjectPanel fields;
     private final RowsPicture rows = new RowsPicture();
-    private long begin = System.nanoTime(), shown, total;
+    private long begin = System.nanoTime(), next = begin, shown, total;
 
     ChannelWindow(String channel, int x, int y) {
         this.channel = channel;
@@ -64,8 +64,7 @@ class ChannelWindow implements LCMSubscriber {
         }
         try {
             if (fields != null) {
-                Object message = messageOf(in);
-                SwingUtilities.invokeLater(() -> fields.setObject(message, System.currentTimeMillis() * 1000));
+                show(messageOf(in));
             } else if (channel.endsWith("_DISPARITY")) {
                 show(rows.take(new disparity_rows_t(in)));
             } else {
@@ -87,6 +86,24 @@ class ChannelWindow implements LCMSubscriber {
         if (channel.endsWith("_CAMERA_INFO")) return new camera_info_t(in);
         if (channel.endsWith("_DEPTH")) return new depth_rows_t(in);
         return new pointcloud_t(in);
+    }
+
+    private void show(Object message) {
+        shown++;
+        if (System.nanoTime() < next) return;  // faster than that nobody reads, and a cloud has thousands of fields
+        next = System.nanoTime() + 200_000_000;
+        double seconds = (System.nanoTime() - begin) * 1e-9;
+        String title = seconds > 1
+            ? channel + String.format(Locale.ROOT, " %.1f messages/s, %d ignored", shown / seconds, rows.ignored)
+            : window.getTitle();
+        if (seconds > 1) {
+            begin = System.nanoTime();
+            shown = 0;
+        }
+        SwingUtilities.invokeLater(() -> {
+            window.setTitle(title);
+            fields.setObject(message, System.currentTimeMillis() * 1000);
+        });
     }
 
     private void show(BufferedImage picture) {
