@@ -16,6 +16,7 @@ die() {
 # What has been compiled before is not compiled again.
 if [[ -z ${CMAKE_CXX_COMPILER_LAUNCHER:-} ]]; then
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_DIR=${XDG_CACHE_HOME:-$HOME/.cache}/stereod/ccache
+  export CCACHE_SLOPPINESS=pch_defines,time_macros  # or nothing that has a precompiled header would be kept
 fi
 
 # Tests that send LCM messages do so where nobody else listens. Without that they use the machine's network, or skip
