@@ -2,29 +2,10 @@
 #include <cmath>
 
 #include "calib/html.h"
+#include "calib/lens_breakdown.h"
 #include "calib/report.h"
 
 namespace stereod {
-
-namespace {
-
-// The share of an image's pixels that no direction belongs to. A fisheye's corners may look farther aside
-// than a plane picture shows; that is no fault.
-double breakdown(const CameraModel& camera) {
-  if (camera.lens == LensModel::kFisheye) return 0;
-  constexpr int kSteps = 40;
-  int without = 0;
-  for (int row = 0; row <= kSteps; ++row) {
-    for (int column = 0; column <= kSteps; ++column) {
-      const Point2 pixel{static_cast<double>(camera.image.width - 1) * column / kSteps,
-                         static_cast<double>(camera.image.height - 1) * row / kSteps};
-      without += camera.undistort(camera.from_pixel(pixel)) ? 0 : 1;
-    }
-  }
-  return static_cast<double>(without) / ((kSteps + 1) * (kSteps + 1));
-}
-
-}  // namespace
 
 Assessment assess(const SolveResult& result) {
   const Size image = result.calibration.image;
@@ -50,8 +31,8 @@ Assessment assess(const SolveResult& result) {
   figures.worst_row_error_px = result.worst_row_error_px;
   figures.left_coverage = a.left.share();
   figures.right_coverage = a.right.share();
-  figures.breakdown =
-      std::max(breakdown(result.calibration.left.camera), breakdown(result.calibration.right.camera));
+  figures.breakdown = std::max(lens_breakdown(result.calibration.left.camera),
+                               lens_breakdown(result.calibration.right.camera));
   figures.empty_parts = (a.left.share() <= a.right.share() ? a.left : a.right).empty_parts();
   a.verdict = judge(figures);
   return a;
