@@ -15,6 +15,7 @@
 #include "core/depth.h"
 #include "core/match/frame_matcher.h"
 #include "core/rectify_map.h"
+#include "daemon/capture/synthetic_scene.h"
 #include "daemon/config/calibration_file.h"
 #include "daemon/config/text_file.h"
 #include "daemon/imagefile/read_image.h"
@@ -456,43 +457,30 @@ TEST_F(Program, BoardsAreFoundAgainInWhatIsPrinted) {
   EXPECT_NEAR(pixels / 100 * 25.4, 168, 0.3);  // six squares, mm
 }
 
-// Plays a board before two cameras: it moves, rests, moves on.
+// Against the cameras that the scene really has.
+void expect_found(const Calibration& found, const Calibration& truth) {
+  EXPECT_NEAR(found.left.camera.fx / truth.left.camera.fx, 1, 0.003);
+  EXPECT_NEAR(found.left.camera.fy / truth.left.camera.fy, 1, 0.003);
+  EXPECT_NEAR(found.right.camera.fx / truth.right.camera.fx, 1, 0.003);
+  EXPECT_NEAR(found.right.camera.fy / truth.right.camera.fy, 1, 0.003);
+  EXPECT_NEAR(found.baseline_m / truth.baseline_m, 1, 0.003);
+}
+
+// The daemon's synthetic cameras see a board that moves, rests, moves on; no camera is needed to practise.
 TEST_F(Program, CaptureGuidesTakesAndSolves) {
-  const StereoCameras cameras = known_cameras(kImage);
-  const BoardScene scene(cameras, kBoard);
-  const std::vector<BoardPose> poses = varied_poses(kBoard, 18);
-  fs::create_directory(folder_ / "play");
-  std::size_t number = 0;
-  const auto play = [&](const BoardPose& pose) {
-    const PicturePair pair = scene.render(pose, number);
-    write_png(folder_ / ("play/left_" + std::to_string(number) + ".png"), pair.left.view());
-    write_png(folder_ / ("play/right_" + std::to_string(number) + ".png"), pair.right.view());
-    ++number;
-  };
-  BoardPose away = poses[0];
-  away.translation_m.x += 2;
-  play(away);
-  for (const BoardPose& pose : poses) {
-    BoardPose passing = pose;
-    passing.translation_m.x += 0.01;
-    play(passing);
-    for (int frame = 0; frame < 4; ++frame) play(pose);
-  }
   write_text_file(folder_ / "config.yaml",
-                  "cameras:\n  source: replay\n  fps: 0\n  replay:\n    folder: play\n    loop: false\n");
+                  "cameras:\n  source: synthetic\n  fps: 0\n  synthetic: {scene: board}\n");
   const ProgramRun result =
       run({"capture", "--config", file("config.yaml"), "--board", "9x6", "--square", "25mm", "--port", "0",
-           "--pairs", "14", "--keep", file("kept"), "-o", file("c.yaml"), "--report", file("r.html")});
+           "--keep", file("kept"), "-o", file("c.yaml"), "--report", file("r.html")});
   EXPECT_EQ(result.status, 0) << result.out << result.err;
   for (const char* words : {"show the whole board to both cameras", "hold still", "tilt the board",
                             "left no ", "left yes right yes"}) {
     EXPECT_THAT(result.err, HasSubstr(words));
   }
   EXPECT_THAT(result.out, HasSubstr("pairs taken\nverdict: good"));
-  const Calibration found = read_calibration(file("c.yaml"));
-  EXPECT_NEAR(found.left.camera.fx / cameras.left.fx, 1, 0.003);
-  EXPECT_NEAR(found.baseline_m / 0.06, 1, 0.003);
-  EXPECT_TRUE(fs::exists(folder_ / "kept/left_13.png"));
+  expect_found(read_calibration(file("c.yaml")), SyntheticScene().calibration());
+  EXPECT_TRUE(fs::exists(folder_ / "kept/left_14.png"));
   EXPECT_TRUE(fs::exists(folder_ / "r.html"));
 }
 
@@ -508,31 +496,22 @@ TEST_F(Program, CaptureWithoutABoardSaysSo) {
   EXPECT_FALSE(fs::exists(folder_ / "c.yaml"));
 }
 
-// The daemon plays the board, stereo-calibrate takes its raw pictures over LCM.
+// The same through the running daemon, which shows the board; stereo-calibrate takes its raw pictures over
+// LCM.
 TEST_F(Program, CaptureTakesTheRunningDaemonsPictures) {
   if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
-  fs::create_directory(folder_ / "play");
-  std::size_t number = 0;
-  // At ten frames a second each pose rests for most of a second; the recording begins again until all is
-  // taken.
-  for (std::size_t pose = 0; pose < 16; ++pose) {
-    for (int frame = 0; frame < 8; ++frame, ++number) {
-      fs::create_symlink(left(pose), folder_ / ("play/left_" + std::to_string(number) + ".png"));
-      fs::create_symlink(right(pose), folder_ / ("play/right_" + std::to_string(number) + ".png"));
-    }
-  }
   write_text_file(folder_ / "config.yaml",
-                  "cameras:\n  source: replay\n  fps: 10\n  replay:\n    folder: play\n"
+                  "cameras:\n  source: synthetic\n  fps: 10\n  synthetic: {scene: board}\n"
                   "lcm:\n  prefix: BOARDS\n  raw_images: true\n  raw_images_per_second: 10\n");
   fs::create_directory(folder_ / "daemon");
   ChildProgram daemon(fs::path(STEREOD_BIN_DIR) / "stereod", {"--config", file("config.yaml")},
                       folder_ / "daemon");
-  const ProgramRun result = run({"capture", "--daemon", "--prefix", "BOARDS", "--square", "25mm", "--port",
-                                 "0", "--pairs", "10", "-o", file("c.yaml")});
+  const ProgramRun result = run(
+      {"capture", "--daemon", "--prefix", "BOARDS", "--square", "25mm", "--port", "0", "-o", file("c.yaml")});
   daemon.send(SIGTERM);
   EXPECT_EQ(daemon.wait().status, 0);
   EXPECT_EQ(result.status, 0) << result.out << result.err;
-  EXPECT_NEAR(read_calibration(file("c.yaml")).left.camera.fx / known_cameras(kImage).left.fx, 1, 0.01);
+  expect_found(read_calibration(file("c.yaml")), SyntheticScene().calibration());
 }
 
 // What the daemon plays, over LCM: with the board, then a scene without one; cameras as calibrated, then
