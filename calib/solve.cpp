@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "calib/board_search.h"
+#include "calib/edge_width.h"
 #include "calib/errors.h"
 #include "calib/matched_boards.h"
 #include "calib/pair_consensus.h"
@@ -21,8 +22,6 @@ using Indices = std::vector<std::size_t>;
 constexpr double kOutlierFactor = 3;
 constexpr double kCoarseFloorPx = 2;  // while each camera is known only for itself
 constexpr double kFineFloorPx = 0.6;  // once both are solved together
-// Edges of a still, focused picture are 2 to 3 px wide.
-constexpr double kBlurredPx = 6;
 
 std::string px(double value) {
   char text[32];
@@ -44,10 +43,10 @@ class Solver {
       pair.corners = searches[i].corners;
       pair.reason = searches[i].problem;
       const double left = searches[i].left_edge_px, right = searches[i].right_edge_px;
-      if (pair.reason.empty() && std::max(left, right) > kBlurredPx) {
+      if (pair.reason.empty() && std::max(left, right) > blur_limit_px(image_)) {
         pair.reason = std::string("blurred: the ") + (left > right ? "left" : "right") +
-                      " picture's edges are " + px(std::max(left, right)) +
-                      " wide; hold the board still and focus the lens";
+                      " picture's edges are " + px(std::max(left, right)) + " wide, allowed are " +
+                      px(blur_limit_px(image_)) + "; hold the board still and focus the lens";
       }
       if (pair.reason.empty()) drop_if_seen_before(i);
       if (pair.reason.empty()) good_.push_back(i);
