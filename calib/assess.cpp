@@ -44,15 +44,15 @@ std::string summary_text(const SolveResult& result, const Assessment& a) {
   for (const std::string& reason : a.verdict.reasons) text += "  " + reason + "\n";
   text +=
       "board: " + in_words(result.board) + ", squares of " + fixed(1000 * result.board.square_m, 2) + " mm\n";
-  text += "pairs: " + std::to_string(result.count(PairFate::kUsed)) + " used, " +
-          std::to_string(result.count(PairFate::kHeldBack)) + " held back to check with, " +
-          std::to_string(result.count(PairFate::kLeftOut)) + " left out\n";
+  text += "pairs: " + std::to_string(result.count(PairFate::kUsed)) +
+          " used, each held back once to check with, " + std::to_string(result.count(PairFate::kLeftOut)) +
+          " left out\n";
   for (const PairResult& pair : result.pairs) {
     if (pair.fate == PairFate::kLeftOut) text += "  left out: " + pair.name + ": " + pair.reason + "\n";
   }
   text += "reprojection error: " + fixed(c.quality.rms_px, 3) + " px RMS (left alone " +
           fixed(result.left_rms_px, 3) + ", right alone " + fixed(result.right_rms_px, 3) + ")\n";
-  text += "row error on the pairs held back: " + fixed(result.held_back.row_error_px, 3) + " px mean, " +
+  text += "row error on pairs held back: " + fixed(result.held_back.row_error_px, 3) + " px mean, " +
           fixed(result.worst_row_error_px, 3) + " px in the worst pair\n";
   text += "coverage: left " + fixed(100 * a.left.share(), 0) + " %, right " +
           fixed(100 * a.right.share(), 0) + " %\n";
