@@ -2,29 +2,10 @@
 #include <cmath>
 
 #include "calib/html.h"
+#include "calib/lens_breakdown.h"
 #include "calib/report.h"
 
 namespace stereod {
-
-namespace {
-
-// The share of an image's pixels that no direction belongs to. A fisheye's corners may look farther aside
-// than a plane picture shows; that is no fault.
-double breakdown(const CameraModel& camera) {
-  if (camera.lens == LensModel::kFisheye) return 0;
-  constexpr int kSteps = 40;
-  int without = 0;
-  for (int row = 0; row <= kSteps; ++row) {
-    for (int column = 0; column <= kSteps; ++column) {
-      const Point2 pixel{static_cast<double>(camera.image.width - 1) * column / kSteps,
-                         static_cast<double>(camera.image.height - 1) * row / kSteps};
-      without += camera.undistort(camera.from_pixel(pixel)) ? 0 : 1;
-    }
-  }
-  return static_cast<double>(without) / ((kSteps + 1) * (kSteps + 1));
-}
-
-}  // namespace
 
 Assessment assess(const SolveResult& result) {
   const Size image = result.calibration.image;
@@ -50,8 +31,8 @@ Assessment assess(const SolveResult& result) {
   figures.worst_row_error_px = result.worst_row_error_px;
   figures.left_coverage = a.left.share();
   figures.right_coverage = a.right.share();
-  figures.breakdown =
-      std::max(breakdown(result.calibration.left.camera), breakdown(result.calibration.right.camera));
+  figures.breakdown = std::max(lens_breakdown(result.calibration.left.camera),
+                               lens_breakdown(result.calibration.right.camera));
   figures.empty_parts = (a.left.share() <= a.right.share() ? a.left : a.right).empty_parts();
   a.verdict = judge(figures);
   return a;
@@ -63,15 +44,15 @@ std::string summary_text(const SolveResult& result, const Assessment& a) {
   for (const std::string& reason : a.verdict.reasons) text += "  " + reason + "\n";
   text +=
       "board: " + in_words(result.board) + ", squares of " + fixed(1000 * result.board.square_m, 2) + " mm\n";
-  text += "pairs: " + std::to_string(result.count(PairFate::kUsed)) + " used, " +
-          std::to_string(result.count(PairFate::kHeldBack)) + " held back to check with, " +
-          std::to_string(result.count(PairFate::kLeftOut)) + " left out\n";
+  text += "pairs: " + std::to_string(result.count(PairFate::kUsed)) +
+          " used, each held back once to check with, " + std::to_string(result.count(PairFate::kLeftOut)) +
+          " left out\n";
   for (const PairResult& pair : result.pairs) {
     if (pair.fate == PairFate::kLeftOut) text += "  left out: " + pair.name + ": " + pair.reason + "\n";
   }
   text += "reprojection error: " + fixed(c.quality.rms_px, 3) + " px RMS (left alone " +
           fixed(result.left_rms_px, 3) + ", right alone " + fixed(result.right_rms_px, 3) + ")\n";
-  text += "row error on the pairs held back: " + fixed(result.held_back.row_error_px, 3) + " px mean, " +
+  text += "row error on pairs held back: " + fixed(result.held_back.row_error_px, 3) + " px mean, " +
           fixed(result.worst_row_error_px, 3) + " px in the worst pair\n";
   text += "coverage: left " + fixed(100 * a.left.share(), 0) + " %, right " +
           fixed(100 * a.right.share(), 0) + " %\n";

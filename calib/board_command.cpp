@@ -5,7 +5,7 @@
 #include "calib/board_sheet.h"
 #include "calib/commands.h"
 #include "calib/errors.h"
-#include "calib/text_file.h"
+#include "daemon/config/text_file.h"
 
 namespace stereod {
 

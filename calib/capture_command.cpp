@@ -17,7 +17,7 @@
 #include "calib/live_page.h"
 #include "calib/live_state.h"
 #include "calib/solve_command.h"
-#include "calib/text_file.h"
+#include "daemon/config/text_file.h"
 #include "daemon/imagefile/write_image.h"
 
 namespace stereod {

@@ -70,4 +70,10 @@ double edge_width_px(GreyView picture, const Board& board, const Corners& corner
   return std::max(median_of(lying), median_of(standing));
 }
 
+double blur_limit_px(Size image) {
+  constexpr double kSharp_px = 2.5;
+  constexpr double kBlur = 0.0085;  // of the longer side
+  return std::hypot(kSharp_px, kBlur * std::max(image.width, image.height));
+}
+
 }  // namespace stereod

@@ -1,13 +1,20 @@
 #include "calib/exchange.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <limits>
 
+#include "calib/lens_breakdown.h"
+#include "calib/verdict.h"
 #include "daemon/config/file_error.h"
 
 namespace stereod {
 
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // How far m·mᵀ is from the identity, at most.
 double deviation(const Matrix3& m) {
@@ -20,9 +27,9 @@ double deviation(const Matrix3& m) {
 }  // namespace
 
 Matrix3 exact_rotation(const Matrix3& m) {
-  constexpr double kExact = 1e-7, kRepairable = 2e-3;
+  constexpr double kRepairable = 2e-3;
+  if (is_rotation(m) || !(deviation(m) < kRepairable)) return m;
   Matrix3 r = m;
-  if (!(deviation(r) > kExact) || !(deviation(r) < kRepairable)) return m;
   // Newton's iteration for the orthogonal polar factor, R ← R·(3·I − Rᵀ·R)/2.
   for (int round = 0; round < 4; ++round) {
     Matrix3 step = transposed(r) * r;
@@ -30,6 +37,36 @@ Matrix3 exact_rotation(const Matrix3& m) {
     r = r * step;
   }
   return r;
+}
+
+void refuse_absurd(const CameraModel& camera, const std::string& name, const std::filesystem::path& file) {
+  if (const auto problem = problem_with_camera(name, camera))
+    throw FileError(file.string() + ": " + *problem);
+  const double share = lens_breakdown(camera);
+  if (grade_of_breakdown(share) != Grade::kDoAgain) return;
+  throw FileError(
+      file.string() + ": the " + name + " camera's distortion coefficients fold " +
+      std::to_string(std::lround(100 * share)) +
+      " % of the image over itself, which no lens does; are they of this lens model, and in order?");
+}
+
+bool is_camera_matrix(const std::vector<double>& k) {
+  return k[1] == 0 && k[3] == 0 && k[6] == 0 && k[7] == 0 && k[8] == 1;
+}
+
+std::string digits(double number) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+
+double right_shift(const Calibration& c) {
+  const double fx = c.right.projection.fx, product = -fx * c.baseline_m;
+  // Rounding of the quotient and of the product: two steps at most.
+  double before = std::nextafter(std::nextafter(product, -kInfinity), -kInfinity), best = product;
+  for (int step = 0; step < 5; ++step, before = std::nextafter(before, kInfinity)) {
+    if (-before / fx == c.baseline_m && digits(before).size() < digits(best).size()) best = before;
+  }
+  return best;
 }
 
 Calibration sound_or_refused(Calibration calibration, const std::filesystem::path& file) {

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "core/calibration.h"
 
 namespace stereod {
 
 /// They throw FileError with one sentence: what is missing or wrong, where. What is read is sound
-/// (problem_with() finds nothing) and has its id. A rotation that was written with few digits is made exact.
+/// (problem_with() finds nothing, the lens models fold next to nothing) and has its id. A rotation that was
+/// written with so few digits that it is none to 1e-6 is made exact; all other numbers stay as they are.
 
 /// ROS: one camera_info YAML for each camera, as camera_calibration writes them.
 Calibration read_ros(const std::filesystem::path& left, const std::filesystem::path& right);
@@ -34,9 +37,26 @@ Calibration read_opencv(const std::filesystem::path& intrinsics, const std::file
 void write_opencv(const std::filesystem::path& intrinsics, const std::filesystem::path& extrinsics,
                   const Calibration& calibration);
 
-/// The rotation nearest to `m` if that is within 1e-3 of it, else `m` as it is; what is exact to 1e-7 stays
-/// untouched.
+/// The rotation nearest to `m` if that is within 1e-3 of it, else `m` as it is; what is_rotation() already
+/// stays untouched, so that it goes out as it came in.
 Matrix3 exact_rotation(const Matrix3& m);
+
+/// Throws FileError, beginning with `file`, if problem_with_camera() finds something, or the lens model
+/// breaks down in more of the image than is usable. `name` is left or right.
+void refuse_absurd(const CameraModel& camera, const std::string& name, const std::filesystem::path& file);
+
+/// Whether nine numbers, row by row, are fx, 0, cx, 0, fy, cy, 0, 0, 1: a camera without skew. What to say if
+/// not.
+bool is_camera_matrix(const std::vector<double>& numbers);
+inline constexpr const char* kCameraMatrix =
+    "allowed is fx, 0, cx, 0, fy, cy, 0, 0, 1, a camera without skew";
+
+/// The shortest decimal number that reads back to the same bits.
+std::string digits(double number);
+
+/// The fourth number of a right camera's projection, −fx·baseline; of the two or three that read back as this
+/// baseline the one with the fewest digits, which is what another program's file had.
+double right_shift(const Calibration& calibration);
 
 /// The calibration with its id; throws FileError beginning with `file` if problem_with() finds something.
 Calibration sound_or_refused(Calibration calibration, const std::filesystem::path& file);

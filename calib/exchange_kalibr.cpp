@@ -21,14 +21,13 @@ CameraModel read_camera(YamlSection section) {
   m.lens = lens == "equidistant" ? LensModel::kFisheye : LensModel::kPinhole;
   const std::vector<double> size = section.required_numbers("resolution", {2});
   for (const double side : size) {
-    if (!(side >= 1 && side <= 16384 && side == std::floor(side))) {
-      section.fail("resolution", "allowed are two whole numbers from 1 to 16384");
+    if (!(side >= 1 && side <= kWidest_px && side == std::floor(side))) {
+      section.fail("resolution", "allowed are two whole numbers from 1 to " + std::to_string(kWidest_px));
     }
   }
   m.image = {static_cast<int>(size[0]), static_cast<int>(size[1])};
   const std::vector<double> k = section.required_numbers("intrinsics", {4});
   m.fx = k[0], m.fy = k[1], m.cx = k[2], m.cy = k[3];
-  if (!(m.fx > 0 && m.fy > 0)) section.fail("intrinsics", "the focal lengths must be above 0");
   set_distortion(m, section.required_numbers("distortion_coeffs", {4}));
   return m;
 }
@@ -51,11 +50,8 @@ StereoPose read_pose(const YAML::Node& root, const std::filesystem::path& file) 
     throw FileError(file.string() + ": cam1.T_cn_cnm1: four rows of four numbers are needed");
   }
   pose.rotation = exact_rotation(pose.rotation);
-  const Matrix3 product = pose.rotation * transposed(pose.rotation);
-  for (std::size_t i = 0; i < 9; ++i) {
-    if (!(std::abs(product.m[i] - Matrix3{}.m[i]) < 1e-6) || !(determinant(pose.rotation) > 0)) {
-      throw FileError(file.string() + ": cam1.T_cn_cnm1: its first three columns are no rotation");
-    }
+  if (!is_rotation(pose.rotation)) {
+    throw FileError(file.string() + ": cam1.T_cn_cnm1: its first three columns are no rotation");
   }
   return pose;
 }
@@ -67,6 +63,8 @@ Calibration read_kalibr(const std::filesystem::path& camchain) {
   YamlSection root(camchain, node);
   const CameraModel left = read_camera(root.required_section("cam0"));
   const CameraModel right = read_camera(root.required_section("cam1"));
+  refuse_absurd(left, "left", camchain);
+  refuse_absurd(right, "right", camchain);
   if (left.image != right.image) {
     throw FileError(camchain.string() + ": cam0 and cam1 have different resolutions; they must be the same");
   }

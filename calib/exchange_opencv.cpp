@@ -1,12 +1,14 @@
+#include <cmath>
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include "calib/exchange.h"
-#include "calib/text_file.h"
 #include "core/stereo_rectification.h"
 #include "daemon/config/file_error.h"
+#include "daemon/config/text_file.h"
 
 namespace stereod {
 
@@ -35,21 +37,33 @@ class Storage {
       storage_[name] >> matrix;
     } catch (const cv::Exception&) {
     }
-    if (matrix.empty()) throw FileError(file_.string() + ": " + name + ": is missing, or no matrix");
-    if (matrix.channels() != 1 || !cv::checkRange(matrix)) {
-      throw FileError(file_.string() + ": " + name + ": allowed are finite numbers");
-    }
+    if (matrix.empty()) fail(name, "is missing, or no matrix");
+    if (matrix.channels() != 1 || !cv::checkRange(matrix)) fail(name, "allowed are finite numbers");
     cv::Mat wide;
     matrix.convertTo(wide, CV_64F);
     const std::vector<double> values = wide.reshape(1, 1);
     for (const std::size_t count : counts) {
       if (values.size() == count) return values;
     }
-    throw FileError(file_.string() + ": " + name + ": has " + std::to_string(values.size()) +
-                    " numbers, which is not what this matrix has");
+    fail(name, "has " + std::to_string(values.size()) + " numbers, which is not what this matrix has");
   }
 
-  double number(const char* name) const { return static_cast<double>(storage_[name]); }
+  double number(const char* name, double least, double most) const {
+    const cv::FileNode node = storage_[name];
+    const double value = node.isInt() || node.isReal() ? static_cast<double>(node) : std::nan("");
+    if (value >= least && value <= most) return value;
+    std::ostringstream allowed;
+    allowed << "allowed is a number from " << least << " to " << most;
+    fail(name, allowed.str());
+  }
+
+  int whole_number(const char* name, int least, int most) const {
+    return static_cast<int>(number(name, least, most));
+  }
+
+  [[noreturn]] void fail(const char* name, const std::string& complaint) const {
+    throw FileError(file_.string() + ": " + name + ": " + complaint);
+  }
 
  private:
   fs::path file_;
@@ -58,6 +72,7 @@ class Storage {
 
 CameraModel read_camera(const Storage& file, const char* matrix, const char* lens, Size image, bool fisheye) {
   const std::vector<double> k = file.numbers(matrix, {9});
+  if (!is_camera_matrix(k)) file.fail(matrix, kCameraMatrix);
   CameraModel m{image, k[0], k[4], k[2], k[5]};
   m.lens = fisheye ? LensModel::kFisheye : LensModel::kPinhole;
   set_distortion(m, file.numbers(lens, distortion_counts(m.lens)));
@@ -68,7 +83,22 @@ Matrix3 read_rotation(const Storage& file, const char* name) {
   const std::vector<double> values = file.numbers(name, {9});
   Matrix3 rotation;
   std::copy(values.begin(), values.end(), rotation.m.begin());
-  return exact_rotation(rotation);
+  rotation = exact_rotation(rotation);
+  if (!is_rotation(rotation)) file.fail(name, "is no rotation");
+  return rotation;
+}
+
+// Of the right camera to the left one, metres.
+Vector3 read_translation(const Storage& file, double unit_m) {
+  const std::vector<double> t = file.numbers("T", {3});
+  const double apart_m = std::hypot(t[0], t[1], t[2]) * unit_m;
+  if (!(apart_m >= kShortestBaseline_m && apart_m <= kLongestBaseline_m)) {
+    std::ostringstream found;
+    found << "the cameras are " << apart_m << " m apart, allowed is " << kShortestBaseline_m << " to "
+          << kLongestBaseline_m << "; say with --unit what a length of 1 in the file is";
+    file.fail("T", found.str());
+  }
+  return {t[0] * unit_m, t[1] * unit_m, t[2] * unit_m};
 }
 
 Size image_size(const Storage& file, const OpenCvHints& hints, const fs::path& name) {
@@ -77,7 +107,7 @@ Size image_size(const Storage& file, const OpenCvHints& hints, const fs::path& n
     throw FileError(name.string() +
                     ": does not say how large the images are; say --image-size, like 640x480");
   }
-  return {static_cast<int>(file.number("image_width")), static_cast<int>(file.number("image_height"))};
+  return {file.whole_number("image_width", 1, kWidest_px), file.whole_number("image_height", 1, kWidest_px)};
 }
 
 cv::Mat matrix_of(const std::vector<double>& values, int rows) {
@@ -102,14 +132,14 @@ cv::FileStorage open_to_write(const fs::path& file) {
 Calibration read_opencv(const fs::path& intrinsics, const fs::path& extrinsics, const OpenCvHints& hints) {
   const Storage in(intrinsics), ex(extrinsics);
   const Size image = image_size(in, hints, intrinsics);
-  const bool fisheye = hints.fisheye || (in.has("fisheye") && in.number("fisheye") != 0);
+  const bool fisheye = hints.fisheye || (in.has("fisheye") && in.whole_number("fisheye", 0, 1) != 0);
   const CameraModel left = read_camera(in, "M1", "D1", image, fisheye);
   const CameraModel right = read_camera(in, "M2", "D2", image, fisheye);
+  refuse_absurd(left, "left", intrinsics);
+  refuse_absurd(right, "right", intrinsics);
   Calibration c;
   if (!ex.has("R1")) {
-    const std::vector<double> t = ex.numbers("T", {3});
-    const StereoPose pose{read_rotation(ex, "R"),
-                          {t[0] * hints.unit_m, t[1] * hints.unit_m, t[2] * hints.unit_m}};
+    const StereoPose pose{read_rotation(ex, "R"), read_translation(ex, hints.unit_m)};
     try {
       return sound_or_refused(rectified_pair(left, right, pose), extrinsics);
     } catch (const std::invalid_argument& refused) {
@@ -117,19 +147,22 @@ Calibration read_opencv(const fs::path& intrinsics, const fs::path& extrinsics, 
     }
   }
   const std::vector<double> p1 = ex.numbers("P1", {12}), p2 = ex.numbers("P2", {12});
+  if (p2[7] != 0) {
+    ex.fail("P2", "the cameras stand above each other; mount them side by side and calibrate again");
+  }
   c.image = image;
   c.left = {left, read_rotation(ex, "R1"), {p1[0], p1[5], p1[2], p1[6]}};
   c.right = {right, read_rotation(ex, "R2"), {p2[0], p2[5], p2[2], p2[6]}};
   c.baseline_m = -p2[3] / p2[0] * hints.unit_m;
-  if (c.baseline_m < 0) {
+  if (p2[0] > 0 && c.baseline_m < 0) {
     throw FileError(extrinsics.string() +
                     ": left and right are swapped: camera 1 stands to the right of camera 2; calibrate with "
                     "them exchanged");
   }
   if (ex.has("baseline_m")) {
-    c.baseline_m = ex.number("baseline_m");
-    c.quality = {static_cast<int>(ex.number("pairs_used")), ex.number("rms_px"),
-                 ex.number("epipolar_error_px")};
+    c.baseline_m = ex.number("baseline_m", kShortestBaseline_m, kLongestBaseline_m);
+    c.quality = {ex.whole_number("pairs_used", 0, kMostPairs), ex.number("rms_px", 0, kLargestError_px),
+                 ex.number("epipolar_error_px", 0, kLargestError_px)};
   }
   return sound_or_refused(c, extrinsics);
 }
@@ -155,7 +188,7 @@ void write_opencv(const fs::path& intrinsics, const fs::path& extrinsics, const 
   cv::FileStorage ex = open_to_write(extrinsics);
   ex << "R" << matrix_of(pose.rotation) << "T" << matrix_of({t.x, t.y, t.z}, 3);
   ex << "R1" << matrix_of(c.left.rotation) << "R2" << matrix_of(c.right.rotation);
-  ex << "P1" << projection_matrix(l, 0) << "P2" << projection_matrix(r, -r.fx * c.baseline_m);
+  ex << "P1" << projection_matrix(l, 0) << "P2" << projection_matrix(r, right_shift(c));
   ex << "Q"
      << matrix_of({1, 0, 0, -l.cx, 0, 1, 0, -l.cy, 0, 0, 0, l.fx, 0, 0, 1 / c.baseline_m,
                    (r.cx - l.cx) / c.baseline_m},

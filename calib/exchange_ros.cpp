@@ -1,10 +1,8 @@
-#include <array>
-#include <charconv>
 #include <sstream>
 #include <vector>
 
 #include "calib/exchange.h"
-#include "calib/text_file.h"
+#include "daemon/config/text_file.h"
 #include "daemon/config/yaml_section.h"
 
 namespace stereod {
@@ -13,24 +11,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidest = 16384;
-
-std::string digits(double number) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
-}
-
 struct RosCamera {
   CameraCalibration camera;
   double right_shift = 0;  // the projection's fourth number: −fx·baseline for a right camera
 };
 
-RosCamera read_camera(YamlSection& root) {
+RosCamera read_camera(YamlSection& root, const std::string& name, const fs::path& file) {
   RosCamera result;
   CameraModel& m = result.camera.camera;
-  m.image = {root.required_integer("image_width", 1, kWidest),
-             root.required_integer("image_height", 1, kWidest)};
+  m.image = {root.required_integer("image_width", 1, kWidest_px),
+             root.required_integer("image_height", 1, kWidest_px)};
   const std::vector<double> k = root.required_section("camera_matrix").required_numbers("data", {9});
+  if (!is_camera_matrix(k)) root.fail("camera_matrix", kCameraMatrix);
   m.fx = k[0], m.fy = k[4], m.cx = k[2], m.cy = k[5];
   const std::string model = root.required_text("distortion_model");
   if (model == "equidistant" || model == "fisheye") {
@@ -43,6 +35,7 @@ RosCamera read_camera(YamlSection& root) {
   set_distortion(
       m,
       root.required_section("distortion_coefficients").required_numbers("data", distortion_counts(m.lens)));
+  refuse_absurd(m, name, file);
   const std::vector<double> r = root.required_section("rectification_matrix").required_numbers("data", {9});
   std::copy(r.begin(), r.end(), result.camera.rotation.m.begin());
   result.camera.rotation = exact_rotation(result.camera.rotation);
@@ -91,10 +84,15 @@ std::string ros_text(const char* name, const CameraCalibration& c, double right_
 
 Calibration read_ros(const fs::path& left, const fs::path& right) {
   YamlSection left_root(left, load_yaml_map(left)), right_root(right, load_yaml_map(right));
-  const RosCamera l = read_camera(left_root), r = read_camera(right_root);
+  const RosCamera l = read_camera(left_root, "left", left), r = read_camera(right_root, "right", right);
   if (l.right_shift < 0 && r.right_shift == 0) {
     throw FileError(left.string() + ": this is the right camera's file and " + right.string() +
                     " the left one's; exchange them");
+  }
+  if (l.right_shift != 0) {
+    left_root.fail("projection_matrix", "found " + digits(l.right_shift) +
+                                            " as the fourth number, which is 0 for a left camera; these two "
+                                            "files are no stereo pair");
   }
   if (!(r.right_shift < 0)) {
     right_root.fail("projection_matrix", "found " + digits(r.right_shift) +
@@ -119,7 +117,7 @@ void write_ros(const fs::path& left, const fs::path& right, const Calibration& c
   require_writable(left);
   require_writable(right);
   write_text_file(left, ros_text("left", c.left, 0, c));
-  write_text_file(right, ros_text("right", c.right, -c.right.projection.fx * c.baseline_m, c));
+  write_text_file(right, ros_text("right", c.right, right_shift(c), c));
 }
 
 }  // namespace stereod

@@ -60,9 +60,9 @@ class SeenBoard {
 
 }  // namespace
 
-void MatchedBoards::add(const PicturePair& pair, const BoardPose& in_left) {
-  const SeenBoard seen(calibration_, board_, in_left);
-  const Size size = calibration_.image;
+void MatchedBoards::add(const Calibration& calibration, const PicturePair& pair, const BoardPose& in_left) {
+  const SeenBoard seen(calibration, board_, in_left);
+  const Size size = calibration.image;
   Image<float> truth(size);
   double nearest = 0, farthest = 1e9;
   for (int y = 0; y < size.height; ++y) {
@@ -80,8 +80,8 @@ void MatchedBoards::add(const PicturePair& pair, const BoardPose& in_left) {
   options.disparities = std::clamp(static_cast<int>(nearest) + kRoom - options.min_disparity, 1, 256);
   WorkerPool pool(1);
   FrameMatcher matcher(options, size, pool);
-  const Rectified left = rectified(calibration_.left, pair.left),
-                  right = rectified(calibration_.right, pair.right);
+  const Rectified left = rectified(calibration.left, pair.left),
+                  right = rectified(calibration.right, pair.right);
   matcher.use_masks(&left.mask, &right.mask);
   DisparityImage found(size);
   matcher.match(left.picture.view(), right.picture.view(), found.view());

@@ -14,12 +14,11 @@ namespace stereod {
 /// are in it together, for these cameras with their noise, their blur and the way they are exposed.
 class MatchedBoards {
  public:
-  MatchedBoards(const Calibration& calibration, const Board& board)
-      : calibration_(calibration), board_(board) {}
+  explicit MatchedBoards(const Board& board) : board_(board) {}
 
   /// Rectifies and matches the pair as the daemon does by default. `in_left`: the board's pose for the left
   /// camera.
-  void add(const PicturePair& pair, const BoardPose& in_left);
+  void add(const Calibration& calibration, const PicturePair& pair, const BoardPose& in_left);
 
   std::size_t points() const { return errors_px_.size(); }
   /// What two thirds (68 %) of the points are nearer than: one standard deviation, if it were a normal
@@ -27,7 +26,6 @@ class MatchedBoards {
   double deviation_px() const;
 
  private:
-  const Calibration& calibration_;
   const Board& board_;
   std::vector<float> errors_px_;
 };

@@ -26,7 +26,4 @@ double median(std::vector<double> values);
 /// `count` of `from` places, evenly spread; count ≤ from.
 std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t from);
 
-/// How many of `pairs` are held back to check the calibration with: a fifth, rounded up.
-inline std::size_t held_back_count(std::size_t pairs) { return (pairs + 4) / 5; }
-
 }  // namespace stereod

@@ -36,8 +36,7 @@ std::string head(const SolveResult& result, const Assessment& a) {
   for (const std::string& reason : a.verdict.reasons) html += "<li>" + escaped(reason) + "</li>";
   html += "</ul></header><section class=\"figures\">";
   html += figure(fixed(result.held_back.row_error_px, 2), "px",
-                 "rows apart in the rectified images, mean over " +
-                     std::to_string(result.count(PairFate::kHeldBack)) + " pairs not calibrated with");
+                 "rows apart in the rectified images, mean over the pairs, each held back once");
   html += figure(fixed(result.calibration.quality.rms_px, 2), "px",
                  "corners from where they belong, root mean square over " +
                      std::to_string(result.count(PairFate::kUsed)) + " pairs");
@@ -58,24 +57,22 @@ std::string coverage_section(const SolveResult& result, const Assessment& a) {
     }
     return html + "</figcaption></figure>";
   };
-  return "<section><h2>Where the board has been</h2><p>Each dot is a corner: <i class=\"used\"></i> "
-         "calibrated "
-         "with, <i class=\"held\"></i> held back. Hatched cells saw none; the lens is only guessed at there. "
-         "Hold "
-         "the board there for the next pairs.</p><div class=\"two\">" +
+  return "<section><h2>Where the board has been</h2><p>Each dot is a corner. Hatched cells saw none; the "
+         "lens "
+         "is only guessed at there. Hold the board there for the next pairs.</p><div class=\"two\">" +
          one("Left", a.left, true) + one("Right", a.right, false) + "</div></section>";
 }
 
-// The pair held back whose row error is the median one.
+// The pair whose row error is the median one.
 const PairResult& typical_pair(const SolveResult& result, std::size_t& index) {
-  std::vector<std::size_t> held;
+  std::vector<std::size_t> used;
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-    if (result.pairs[i].fate == PairFate::kHeldBack) held.push_back(i);
+    if (result.pairs[i].fate == PairFate::kUsed) used.push_back(i);
   }
-  std::sort(held.begin(), held.end(), [&](std::size_t a, std::size_t b) {
+  std::sort(used.begin(), used.end(), [&](std::size_t a, std::size_t b) {
     return result.pairs[a].check.row_error_px < result.pairs[b].check.row_error_px;
   });
-  index = held[held.size() / 2];
+  index = used[used.size() / 2];
   return result.pairs[index];
 }
 
@@ -84,9 +81,9 @@ std::string epipolar_section(const SolveResult& result, const std::vector<Pictur
   const PairResult& pair = typical_pair(result, index);
   const Calibration& c = result.calibration;
   return "<section><h2>A rectified pair</h2><p>" + escaped(pair.name) +
-         ", not calibrated with, its corners ringed. The same corner lies on the same line in both pictures; "
-         "in "
-         "this pair they are " +
+         ", its corners ringed. The same corner lies on the same line in both pictures; while this pair was "
+         "held "
+         "back, they were " +
          fixed(pair.check.row_error_px, 2) + " px apart.</p>" +
          epipolar_view(c, pair.corners, jpeg_url(rectified_view(c.left, pictures[index].left.view())),
                        jpeg_url(rectified_view(c.right, pictures[index].right.view()))) +
@@ -99,8 +96,8 @@ std::string depth_section(const SolveResult& result, const Assessment& a) {
       "texture: "
       "disparities are uncertain by " +
       fixed(a.depth.disparity_px, 2) + " px, " +
-      (result.matched_error_px ? "as the matcher finds them on the boards of the pairs held back"
-                               : "guessed, because the matcher found too little on the boards held back") +
+      (result.matched_error_px ? "as the matcher finds them on the boards while each was held back"
+                               : "guessed, because the matcher found too little on the boards") +
       ", and lengths by " + fixed(100 * a.depth.scale, 2) +
       " %. A printed square of another size than was said changes all depths by the same part, and no "
       "picture "
@@ -125,12 +122,9 @@ std::string pair_row(const PairResult& pair, std::size_t number, double full) {
   if (pair.fate == PairFate::kLeftOut) {
     return html + "<td><em>left out</em></td><td colspan=\"4\">" + escaped(pair.reason) + "</td></tr>";
   }
-  const bool used = pair.fate == PairFate::kUsed;
-  html += std::string("<td>") + (used ? "used" : "<b>held back</b>") + "</td><td>" + fixed(pair.error_px, 2) +
-          "</td><td>" + bar(pair.error_px, full, used ? "used" : "held") + "</td><td>" +
-          fixed(pair.check.row_error_px, 2) + "</td><td>" +
-          bar(pair.check.row_error_px, full, used ? "used" : "held") + "</td></tr>";
-  return html;
+  return html + "<td>used</td><td>" + fixed(pair.error_px, 2) + "</td><td>" +
+         bar(pair.error_px, full, "used") + "</td><td>" + fixed(pair.check.row_error_px, 2) + "</td><td>" +
+         bar(pair.check.row_error_px, full, "held") + "</td></tr>";
 }
 
 std::string pairs_section(const SolveResult& result) {
@@ -141,7 +135,7 @@ std::string pairs_section(const SolveResult& result) {
   std::string html =
       "<section><h2>Every pair</h2><table class=\"pairs\"><tr><th></th><th>pair</th><th>what became of "
       "it</th>"
-      "<th colspan=\"2\">corners off, px</th><th colspan=\"2\">rows apart, px</th></tr>";
+      "<th colspan=\"2\">corners off, px</th><th colspan=\"2\">rows apart while held back, px</th></tr>";
   std::size_t number = 0;
   for (const PairResult& pair : result.pairs) html += pair_row(pair, ++number, full);
   return html + "</table></section>";

@@ -55,10 +55,9 @@ std::string coverage_map(const SolveResult& result, const Coverage& coverage, bo
   const std::string radius = fixed(w / 260, 2);
   for (const PairResult& pair : result.pairs) {
     if (pair.fate == PairFate::kLeftOut) continue;
-    const std::string css_class = pair.fate == PairFate::kUsed ? "used" : "held";
     for (const Point2& p : left ? pair.corners.left : pair.corners.right) {
-      svg += "<circle class=\"" + css_class + "\" cx=\"" + fixed(p.x, 1) + "\" cy=\"" + fixed(p.y, 1) +
-             "\" r=\"" + radius + "\"/>";
+      svg += "<circle class=\"used\" cx=\"" + fixed(p.x, 1) + "\" cy=\"" + fixed(p.y, 1) + "\" r=\"" +
+             radius + "\"/>";
     }
   }
   return svg + "</svg>";

@@ -30,9 +30,7 @@ figure { margin:0; } figcaption { margin-top:8px; font-size:14px; }
 svg { display:block; width:100%; height:auto; }
 .map { border:1px solid var(--line); border-radius:6px; }
 .map .ground { fill:#fff; } .map .cell { fill:#b9d3ee; } .map .empty { fill:url(#hatching); }
-.map .used { fill:var(--used); } .map .held { fill:var(--held); }
-p i { display:inline-block; width:10px; height:10px; border-radius:5px; }
-p i.used { background:var(--used); } p i.held { background:var(--held); }
+.map .used { fill:var(--used); }
 .pair { border-radius:6px; background:#000; }
 .epipolar { stroke-width:1; vector-effect:non-scaling-stroke; stroke-opacity:.75; }
 .epipolar.even { stroke:#ffd23f; } .epipolar.odd { stroke:#4fd1ff; }

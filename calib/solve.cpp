@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "calib/board_search.h"
+#include "calib/edge_width.h"
 #include "calib/errors.h"
 #include "calib/matched_boards.h"
 #include "calib/pair_consensus.h"
@@ -21,8 +22,6 @@ using Indices = std::vector<std::size_t>;
 constexpr double kOutlierFactor = 3;
 constexpr double kCoarseFloorPx = 2;  // while each camera is known only for itself
 constexpr double kFineFloorPx = 0.6;  // once both are solved together
-// Edges of a still, focused picture are 2 to 3 px wide.
-constexpr double kBlurredPx = 6;
 
 std::string px(double value) {
   char text[32];
@@ -44,10 +43,10 @@ class Solver {
       pair.corners = searches[i].corners;
       pair.reason = searches[i].problem;
       const double left = searches[i].left_edge_px, right = searches[i].right_edge_px;
-      if (pair.reason.empty() && std::max(left, right) > kBlurredPx) {
+      if (pair.reason.empty() && std::max(left, right) > blur_limit_px(image_)) {
         pair.reason = std::string("blurred: the ") + (left > right ? "left" : "right") +
-                      " picture's edges are " + px(std::max(left, right)) +
-                      " wide; hold the board still and focus the lens";
+                      " picture's edges are " + px(std::max(left, right)) + " wide, allowed are " +
+                      px(blur_limit_px(image_)) + "; hold the board still and focus the lens";
       }
       if (pair.reason.empty()) drop_if_seen_before(i);
       if (pair.reason.empty()) good_.push_back(i);
@@ -71,68 +70,51 @@ class Solver {
     require_enough();
   }
 
-  // Those at evenly spread places of the list that was given, or the next good ones after them: so one bad
-  // pair more or less changes at most one of them.
-  void split() {
-    const std::size_t all = result_.pairs.size();
-    Indices held;
-    const auto is_free = [&](std::size_t i) {
-      return std::find(good_.begin(), good_.end(), i) != good_.end() &&
-             std::find(held.begin(), held.end(), i) == held.end();
-    };
-    const Indices places = evenly_spread(held_back_count(all), all);
-    for (const std::size_t i : places) {
-      if (is_free(i)) held.push_back(i);
-    }
-    for (const std::size_t place : places) {
-      if (held.size() >= held_back_count(good_.size())) break;
-      std::size_t i = place;
-      while (!is_free(i)) i = (i + 1) % all;
-      if (std::find(held.begin(), held.end(), place) == held.end()) held.push_back(i);
-    }
-    held.resize(std::min(held.size(), held_back_count(good_.size())));
-    for (const std::size_t i : good_) {
-      (std::find(held.begin(), held.end(), i) != held.end() ? held_back_ : used_).push_back(i);
-    }
-  }
-
   // Solves, and again without the worst pair while it is far worse than the others.
   void refine() {
     for (;;) {
-      solve_used();
+      solve_good();
       std::vector<double> errors;
-      for (const std::size_t i : used_) errors.push_back(result_.pairs[i].error_px = error_of(i));
+      for (const std::size_t i : good_) {
+        const BoardPair& corners = result_.pairs[i].corners;
+        errors.push_back(pair_error_px(cameras_, result_.board, corners, pose_of(cameras_, corners)));
+        result_.pairs[i].error_px = errors.back();
+      }
       const double limit = std::max(kOutlierFactor * median(errors), kFineFloorPx);
       const auto worst = std::max_element(errors.begin(), errors.end());
-      if (!(*worst > limit) || used_.size() < kFewestPairs) break;
+      if (!(*worst > limit) || good_.size() < kFewestPairs) break;
       const auto place = worst - errors.begin();
-      leave_out(used_[static_cast<std::size_t>(place)], moved_reason(*worst));
-      used_.erase(used_.begin() + place);
+      leave_out(good_[static_cast<std::size_t>(place)], moved_reason(*worst));
+      good_.erase(good_.begin() + place);
     }
-    std::vector<double> errors;
-    for (const std::size_t i : held_back_) errors.push_back(result_.pairs[i].error_px = error_of(i));
-    std::vector<double> used_errors;
-    for (const std::size_t i : used_) used_errors.push_back(result_.pairs[i].error_px);
-    // A pair that was not used fits less well; only one that is no honest pair is kept out of the check.
-    const double limit = std::max(2 * kOutlierFactor * median(used_errors), 2 * kFineFloorPx);
-    if (median(errors) <= limit) drop(held_back_, errors, limit, moved_reason);
+    for (const std::size_t i : good_) result_.pairs[i].fate = PairFate::kUsed;
+    result_.calibration = rectified(cameras_);
+    result_.calibration.quality.pairs_used = static_cast<int>(good_.size());
+    result_.calibration.quality.rms_px = rms_px_;
   }
 
-  void finish(const std::vector<PicturePair>& pictures) {
-    try {
-      result_.calibration = rectified_pair(cameras_.left, cameras_.right, cameras_.pose);
-    } catch (const std::invalid_argument& refused) {
-      throw CalibrationError(refused.what());
-    }
-    for (const std::size_t i : used_) {
-      result_.pairs[i].fate = PairFate::kUsed;
-      check(i);
+  // Each group held back in turn. A pair's group is its place in the list, whatever pairs are good: so one
+  // bad pair more or less moves no other.
+  void cross_check(const std::vector<PicturePair>& pictures) {
+    MatchedBoards matched(result_.board);
+    for (std::size_t group = 0; group < kHeldBackGroups; ++group) {
+      Indices held_back, others;
+      for (const std::size_t i : good_) (i % kHeldBackGroups == group ? held_back : others).push_back(i);
+      if (held_back.empty()) continue;
+      // What is found does not depend on where the search begins; from here it is short.
+      const StereoCameras cameras = solve_both(others, cameras_.left, cameras_.right).cameras;
+      const Calibration calibration = rectified(cameras);
+      for (const std::size_t i : held_back) {
+        PairResult& pair = result_.pairs[i];
+        const BoardPose pose = pose_of(cameras, pair.corners);
+        pair.check = check_pair(calibration, result_.board, pair.corners, pose);
+        matched.add(calibration, pictures[i], pose);
+      }
     }
     PairCheck& mean = result_.held_back;
-    const auto count = static_cast<double>(held_back_.size());
-    for (const std::size_t i : held_back_) {
-      result_.pairs[i].fate = PairFate::kHeldBack;
-      const PairCheck& one = check(i);
+    const auto count = static_cast<double>(good_.size());
+    for (const std::size_t i : good_) {
+      const PairCheck& one = result_.pairs[i].check;
       mean.row_error_px += one.row_error_px / count;
       mean.row_offset_px += one.row_offset_px / count;
       mean.disparity_error_px += one.disparity_error_px * one.disparity_error_px / count;
@@ -140,14 +122,9 @@ class Solver {
       result_.worst_row_error_px = std::max(result_.worst_row_error_px, one.row_error_px);
     }
     mean.disparity_error_px = std::sqrt(mean.disparity_error_px);
-    MatchedBoards matched(result_.calibration, result_.board);
-    for (const std::size_t i : held_back_) matched.add(pictures[i], pose_of(result_.pairs[i].corners));
+    result_.calibration.quality.epipolar_error_px = mean.row_error_px;
     constexpr std::size_t kEnough = 500;
     if (matched.points() >= kEnough) result_.matched_error_px = matched.deviation_px();
-    CalibrationQuality& quality = result_.calibration.quality;
-    quality.pairs_used = static_cast<int>(used_.size());
-    quality.rms_px = rms_px_;
-    quality.epipolar_error_px = mean.row_error_px;
   }
 
  private:
@@ -232,35 +209,37 @@ class Solver {
     return solve_camera(image_, result_.board, views, options_.lens);
   }
 
-  void solve_used() {
-    const CameraSolution left = solve_side(used_, true), right = solve_side(used_, false);
-    result_.left_rms_px = left.rms_px, result_.right_rms_px = right.rms_px;
+  StereoSolution solve_both(const Indices& used, const CameraModel& left, const CameraModel& right) const {
     std::vector<BoardPair> pairs;
-    for (const std::size_t i : used_) pairs.push_back(result_.pairs[i].corners);
-    const StereoSolution both = solve_stereo(result_.board, pairs, left.camera, right.camera, options_.lens);
+    for (const std::size_t i : used) pairs.push_back(result_.pairs[i].corners);
+    return solve_stereo(result_.board, pairs, left, right, options_.lens);
+  }
+
+  void solve_good() {
+    const CameraSolution left = solve_side(good_, true), right = solve_side(good_, false);
+    result_.left_rms_px = left.rms_px, result_.right_rms_px = right.rms_px;
+    const StereoSolution both = solve_both(good_, left.camera, right.camera);
     cameras_ = both.cameras;
     rms_px_ = both.rms_px;
   }
 
-  BoardPose pose_of(const BoardPair& corners) const {
-    return fitted_pose(cameras_, result_.board, corners,
-                       solve_pose(cameras_.left, result_.board, corners.left));
+  static Calibration rectified(const StereoCameras& cameras) {
+    try {
+      return rectified_pair(cameras.left, cameras.right, cameras.pose);
+    } catch (const std::invalid_argument& refused) {
+      throw CalibrationError(refused.what());
+    }
   }
 
-  double error_of(std::size_t i) const {
-    const BoardPair& corners = result_.pairs[i].corners;
-    return pair_error_px(cameras_, result_.board, corners, pose_of(corners));
-  }
-
-  const PairCheck& check(std::size_t i) {
-    PairResult& pair = result_.pairs[i];
-    return pair.check = check_pair(result_.calibration, result_.board, pair.corners, pose_of(pair.corners));
+  BoardPose pose_of(const StereoCameras& cameras, const BoardPair& corners) const {
+    return fitted_pose(cameras, result_.board, corners,
+                       solve_pose(cameras.left, result_.board, corners.left));
   }
 
   Size image_;
   const SolveOptions& options_;
   SolveResult& result_;
-  Indices good_, used_, held_back_;
+  Indices good_;
   StereoCameras cameras_;
   double rms_px_ = 0;
 };
@@ -280,19 +259,25 @@ SolveResult solve(const std::vector<PicturePair>& pictures, const SolveOptions& 
                                          : "are only " + std::to_string(pictures.size()) + " pairs") +
         " of pictures; at least " + std::to_string(kFewestPairs) + " are needed, better 15 and more");
   }
+  SolveOptions with_board = options;
+  if (!with_board.board) with_board.board = guess_board(pictures);
+  return solve_found(pictures, search_boards(pictures, *with_board.board), with_board);
+}
+
+SolveResult solve_found(const std::vector<PicturePair>& pictures, const std::vector<PairSearch>& found,
+                        const SolveOptions& options) {
   SolveResult result;
   result.lens = options.lens;
-  result.board = options.board ? *options.board : guess_board(pictures);
+  result.board = options.board.value();
   result.board.square_m = options.square_m;
   Solver solver(pictures, options, result);
-  solver.take(pictures, search_boards(pictures, result.board));
-  Progress progress("calibrating", 4);
+  solver.take(pictures, found);
+  Progress progress("calibrating", 3);
   solver.find_consensus();
   progress.step();
-  solver.split();
   solver.refine();
   progress.step();
-  solver.finish(pictures);
+  solver.cross_check(pictures);
   progress.step();
   return result;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calib/board.h"
+#include "calib/board_search.h"
 #include "calib/camera_solver.h"
 #include "calib/pair_geometry.h"
 #include "calib/pair_input.h"
@@ -13,9 +14,8 @@
 namespace stereod {
 
 enum class PairFate {
-  kUsed,      ///< calibrated with
-  kHeldBack,  ///< checked with
-  kLeftOut,   ///< for a reason
+  kUsed,     ///< calibrated with; checked by a calibration that it had no part in
+  kLeftOut,  ///< for a reason
 };
 
 /// What became of one pair.
@@ -25,7 +25,7 @@ struct PairResult {
   std::string reason;   ///< why it was left out
   BoardPair corners;    ///< empty lists where no board was found
   double error_px = 0;  ///< root mean square distance of corners from where they belong
-  PairCheck check;      ///< after the calibration; not for pairs left out
+  PairCheck check;      ///< while it was held back; not for pairs left out
 };
 
 struct SolveResult {
@@ -33,10 +33,10 @@ struct SolveResult {
   LensChoice lens = LensChoice::kPinhole;
   Calibration calibration;
   double left_rms_px = 0, right_rms_px = 0;  ///< each camera for itself
-  PairCheck held_back;                       ///< mean over the pairs held back; the worst scale error
-  double worst_row_error_px = 0;             ///< of a pair held back
-  std::optional<double> matched_error_px;  ///< MatchedBoards, on the pairs held back; nothing: too few points
-  std::vector<PairResult> pairs;           ///< in the order given
+  PairCheck held_back;                       ///< mean over the pairs, each while it was held back
+  double worst_row_error_px = 0;             ///< of such a pair
+  std::optional<double> matched_error_px;    ///< MatchedBoards, on the same; nothing: too few points
+  std::vector<PairResult> pairs;             ///< in the order given
 
   int count(PairFate fate) const;
 };
@@ -48,10 +48,17 @@ struct SolveOptions {
 };
 
 inline constexpr int kFewestPairs = 5;
+inline constexpr std::size_t kHeldBackGroups = 5;
 
-/// Finds the board, each camera, how they stand to each other, and the pairs that do not agree; a fifth of
-/// the good pairs is held back to check with. Throws CalibrationError with a sentence: no board, a board of
-/// another size (which one), fewer than kFewestPairs good pairs, cameras swapped or not side by side.
+/// Finds the board, each camera, how they stand to each other, and the pairs that do not agree. The errors
+/// are those of pairs that were not calibrated with (cross-validation, Stone 1974): a fifth is held back at a
+/// time and measured with a calibration from the others, until each was held back once; the calibration
+/// itself is made from all good pairs. Throws CalibrationError with a sentence: no board, a board of another
+/// size (which one), fewer than kFewestPairs good pairs, cameras swapped or not side by side.
 SolveResult solve(const std::vector<PicturePair>& pictures, const SolveOptions& options);
+
+/// The same where the boards have been found; `options.board` is set.
+SolveResult solve_found(const std::vector<PicturePair>& pictures, const std::vector<PairSearch>& found,
+                        const SolveOptions& options);
 
 }  // namespace stereod

@@ -6,8 +6,8 @@
 #include "calib/commands.h"
 #include "calib/errors.h"
 #include "calib/report.h"
-#include "calib/text_file.h"
 #include "daemon/config/calibration_file.h"
+#include "daemon/config/text_file.h"
 
 namespace stereod {
 

@@ -57,6 +57,8 @@ std::string in_words(Grade grade) {
 
 Grade grade_of_row_error(double row_error_px) { return grade_of(row_error_px, kGoodRow_px, kUsableRow_px); }
 
+Grade grade_of_breakdown(double share) { return grade_of(share, 0, kUsableBreakdown); }
+
 Verdict judge(const QualityFigures& f) {
   Jury jury;
   jury.hear(grade_of_row_error(f.row_error_px),
@@ -79,7 +81,7 @@ Verdict judge(const QualityFigures& f) {
                 (f.empty_parts.empty() ? "" : ", not in " + list_of(f.empty_parts)) +
                 "; depth there is not to be trusted.");
   jury.hear(
-      grade_of(f.breakdown, 0, kUsableBreakdown),
+      grade_of_breakdown(f.breakdown),
       "The lens model breaks down in " + number(100 * f.breakdown, 1) +
           " % of the images: it has more coefficients than these pictures can hold. Show the board there "
           "too, or choose a lens model with fewer of them.");

@@ -34,4 +34,7 @@ Verdict judge(const QualityFigures& figures);
 /// row; half a pixel off, it starts to compare other rows.
 Grade grade_of_row_error(double row_error_px);
 
+/// The grade of lens_breakdown() alone: none is good, up to a twentieth of the image usable.
+Grade grade_of_breakdown(double share);
+
 }  // namespace stereod

@@ -36,42 +36,44 @@ std::string text(double number) {
 
 std::string text(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
 
-bool is_rotation(const Matrix3& r) {
-  constexpr double kTolerance = 1e-6;
-  const Matrix3 product = r * transposed(r);
-  const Matrix3 identity;
-  for (std::size_t i = 0; i < 9; ++i) {
-    if (std::abs(product.m[i] - identity.m[i]) > kTolerance) return false;
+Problem problem_with_range(const std::string& what, double number, double least, double most,
+                           const std::string& unit) {
+  if (number >= least && number <= most) return std::nullopt;
+  return what + " is " + text(number) + unit + "; allowed is " + text(least) + " to " + text(most);
+}
+
+Problem problem_with_numbers(const std::string& name, const CameraCalibration& c) {
+  Problem problem;
+  each_number(c, [&](const char* what, double number) {
+    if (problem || std::isfinite(number)) return;
+    problem = "the " + name + " camera's " + what + " is " + text(number) + ", which is not a finite number";
+  });
+  return problem;
+}
+
+Problem problem_with_pinhole(const std::string& whose, double fx, double fy, double cx, double cy) {
+  for (const double focal : {fx, fy}) {
+    if (Problem p = problem_with_range("the " + whose + "'s focal length", focal, kShortestFocal_px,
+                                       kLongestFocal_px, " px"))
+      return p;
   }
-  return determinant(r) > 0;  // it is +1 or -1 here
+  for (const double place : {cx, cy}) {
+    if (Problem p = problem_with_range("the " + whose + "'s principal point", place, -kLongestFocal_px,
+                                       kLongestFocal_px, " px"))
+      return p;
+  }
+  return std::nullopt;
 }
 
 Problem problem_with_camera(const std::string& name, const CameraCalibration& c, Size image) {
-  Problem problem;
-  each_number(c, [&](const char* what, double number) {
-    if (!problem && !std::isfinite(number)) {
-      problem =
-          "the " + name + " camera's " + what + " is " + text(number) + ", which is not a finite number";
-    }
-  });
-  if (problem) return problem;
+  if (Problem p = problem_with_camera(name, c.camera)) return p;
   if (c.camera.image != image) {
     return "the " + name + " camera's images are " + text(c.camera.image) + ", the calibration's are " +
            text(image);
   }
-  constexpr double kRightAngle = std::numbers::pi / 2;
-  if (std::abs(c.camera.tau_x) >= kRightAngle || std::abs(c.camera.tau_y) >= kRightAngle) {
-    return "the " + name + " camera's sensor is tilted by " + text(c.camera.tau_x) + " and " +
-           text(c.camera.tau_y) + " radians; both must be below a right angle";
-  }
-  if (!(c.camera.fx > 0 && c.camera.fy > 0)) {
-    return "the " + name + " camera's focal lengths are " + text(c.camera.fx) + " and " + text(c.camera.fy) +
-           " pixels; both must be greater than 0";
-  }
-  if (!(c.projection.fx > 0 && c.projection.fy > 0)) {
-    return "the " + name + " projection's focal lengths are " + text(c.projection.fx) + " and " +
-           text(c.projection.fy) + " pixels; both must be greater than 0";
-  }
+  if (Problem p = problem_with_numbers(name, c)) return p;
+  const RectifiedProjection& p = c.projection;
+  if (Problem problem = problem_with_pinhole(name + " projection", p.fx, p.fy, p.cx, p.cy)) return problem;
   if (!is_rotation(c.rotation)) {
     return "the " + name +
            " camera's rotation is not one: its rows must be orthonormal to 0.000001 and its determinant +1";
@@ -110,20 +112,50 @@ std::optional<Point2> rectified_point(const CameraCalibration& c, Point2 source)
                 c.projection.fy * ray.y / ray.z + c.projection.cy};
 }
 
+std::optional<std::string> problem_with_camera(const std::string& name, const CameraModel& camera) {
+  for (const int side : {camera.image.width, camera.image.height}) {
+    if (side >= 1 && side <= kWidest_px) continue;
+    return "the " + name + " camera's images are " + text(camera.image) + "; width and height must be 1 to " +
+           std::to_string(kWidest_px);
+  }
+  if (Problem p = problem_with_numbers(name, {camera, {}, {}})) return p;
+  constexpr double kRightAngle = std::numbers::pi / 2;
+  if (std::abs(camera.tau_x) >= kRightAngle || std::abs(camera.tau_y) >= kRightAngle) {
+    return "the " + name + " camera's sensor is tilted by " + text(camera.tau_x) + " and " +
+           text(camera.tau_y) + " radians; both must be below a right angle";
+  }
+  return problem_with_pinhole(name + " camera", camera.fx, camera.fy, camera.cx, camera.cy);
+}
+
+bool is_rotation(const Matrix3& r) {
+  constexpr double kTolerance = 1e-6;
+  const Matrix3 product = r * transposed(r);
+  const Matrix3 identity;
+  for (std::size_t i = 0; i < 9; ++i) {
+    if (!(std::abs(product.m[i] - identity.m[i]) <= kTolerance)) return false;
+  }
+  return determinant(r) > 0;  // it is +1 or -1 here
+}
+
 std::optional<std::string> problem_with(const Calibration& calibration) {
   const Size image = calibration.image;
-  if (image.width < 1 || image.height < 1) {
-    return "the image size is " + text(image) + "; width and height must be at least 1";
+  for (const int side : {image.width, image.height}) {
+    if (side >= 1 && side <= kWidest_px) continue;
+    return "the image size is " + text(image) + "; width and height must be 1 to " +
+           std::to_string(kWidest_px);
   }
   if (Problem p = problem_with_camera("left", calibration.left, image)) return p;
   if (Problem p = problem_with_camera("right", calibration.right, image)) return p;
-  if (!std::isfinite(calibration.baseline_m) || !(calibration.baseline_m > 0)) {
-    return "the baseline is " + text(calibration.baseline_m) + " m; it must be greater than 0";
-  }
   const CalibrationQuality& quality = calibration.quality;
-  if (!std::isfinite(quality.rms_px) || !std::isfinite(quality.epipolar_error_px)) {
-    return "the quality's numbers are " + text(quality.rms_px) + " px and " +
-           text(quality.epipolar_error_px) + " px; both must be finite";
+  const Problem problems[] = {
+      problem_with_range("the baseline", calibration.baseline_m, kShortestBaseline_m, kLongestBaseline_m,
+                         " m"),
+      problem_with_range("the quality's number of pairs", quality.pairs_used, 0, kMostPairs, ""),
+      problem_with_range("the quality's RMS", quality.rms_px, 0, kLargestError_px, " px"),
+      problem_with_range("the quality's epipolar error", quality.epipolar_error_px, 0, kLargestError_px,
+                         " px")};
+  for (const Problem& problem : problems) {
+    if (problem) return problem;
   }
   return problem_with_rows(calibration.left.projection, calibration.right.projection);
 }

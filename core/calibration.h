@@ -51,9 +51,22 @@ struct Calibration {
   friend bool operator==(const Calibration&, const Calibration&) = default;
 };
 
+// The ranges of a sound calibration: wide enough for any camera, narrow enough to catch a number in the wrong
+// place or unit. Principal points are as far off as focal lengths are long at most.
+inline constexpr int kWidest_px = 16384;
+inline constexpr double kShortestFocal_px = 1, kLongestFocal_px = 1e6;
+inline constexpr double kShortestBaseline_m = 1e-4, kLongestBaseline_m = 100;
+inline constexpr double kLargestError_px = 1e6;
+inline constexpr int kMostPairs = 1'000'000;
+
+/// Whether the rows are orthonormal to 1e-6 and the determinant is +1.
+bool is_rotation(const Matrix3& matrix);
+
+/// What makes one camera unusable, as problem_with() has it; `name` is left or right.
+std::optional<std::string> problem_with_camera(const std::string& name, const CameraModel& camera);
+
 /// What makes `calibration` unusable, as one sentence that names the place; nothing if it is sound: every
-/// number finite, sizes equal, focal lengths and baseline positive, rotations orthonormal to 1e-6 with
-/// determinant +1, projections that align rows.
+/// number finite and in its range, sizes equal, rotations that are rotations, projections that align rows.
 std::optional<std::string> problem_with(const Calibration& calibration);
 
 /// 16 hexadecimal digits that change when any number of the geometry does (FNV-1a, 64 bit, over the numbers

@@ -119,7 +119,8 @@ std::optional<Point2> undistort_pinhole(const CameraModel& c, Point2 distorted) 
     if (size(error) < kTolerance) return p;
     const Jacobian j = pinhole_derivative(c, p);
     const double det = j.xx * j.yy - j.xy * j.yx;
-    if (!(det > 0)) return std::nullopt;  // the image folds over here: no lens does
+    // The image folds over here, or is turned round by having folded before: no lens does.
+    if (!(det > 0 && j.xx + j.yy > 0)) return std::nullopt;
     const Point2 move{(j.yy * error.x - j.xy * error.y) / det, (j.xx * error.y - j.yx * error.x) / det};
     // A whole Newton step may leap over the fold; half of it, and half again, does not.
     double part = 1;

@@ -89,7 +89,7 @@ void set_projection(Calibration& c, double zoom) {
   c.id = calibration_id(c);
 }
 
-double length(const Vector3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+double length(const Vector3& v) { return std::hypot(v.x, v.y, v.z); }
 
 // The smallest rotation that turns the unit vector `from` into the x axis; from.x > 0.
 Matrix3 to_x_axis(const Vector3& from) {

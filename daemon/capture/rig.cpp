@@ -48,12 +48,13 @@ Rig open_synthetic_rig(const CamerasConfig& cameras) {
   SyntheticOptions options;
   options.size = {cameras.width, cameras.height};
   options.fps = cameras.fps;
+  options.board = cameras.scene == SceneKind::kBoard;
   options.skew = std::chrono::microseconds(static_cast<std::int64_t>(cameras.skew_ms * 1000));
   SyntheticPair pair = make_synthetic_pair(options);
   Rig rig;
   rig.left = std::move(pair.left);
   rig.right = std::move(pair.right);
-  rig.left_name = rig.right_name = "synthetic scene";
+  rig.left_name = rig.right_name = options.board ? "synthetic board" : "synthetic scene";
   rig.scene_calibration = std::move(pair.calibration);
   return rig;
 }

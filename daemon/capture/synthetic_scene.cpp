@@ -102,7 +102,7 @@ SyntheticScene::View SyntheticScene::make_view(const CameraCalibration& calibrat
   return view;
 }
 
-GreyImage SyntheticScene::render(const View& view, int frame) const {
+GreyImage SyntheticScene::render(const View& view, int frame, const SyntheticBoard* board) const {
   constexpr float kNoise = 1.5F;  // standard deviation, grey levels
   GreyImage image(size());
   const SyntheticWorld::MovingBoxes moving = world_.moving_boxes(frame, view.origin_x);
@@ -113,7 +113,9 @@ GreyImage SyntheticScene::render(const View& view, int frame) const {
     const SceneHit* still = view.still.row(y);
     std::uint8_t* out = image.row(y);
     for (int x = 0; x < image.width(); ++x) {
-      const SceneHit hit = moving.hit({view.origin_x, rays[x].x, rays[x].y}, still[x]);
+      const SceneRay ray{view.origin_x, rays[x].x, rays[x].y};
+      SceneHit hit = moving.hit(ray, still[x]);
+      if (board != nullptr) hit = board->hit(ray, hit);
       random += 0x9e3779b97f4a7c15;
       const float value = view.gain * hit.brightness + view.black_level + kNoise * normal(mixed(random));
       const float half_more = value + 0.5F;  // for the conversion to round to the nearest

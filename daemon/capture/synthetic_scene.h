@@ -6,6 +6,7 @@
 #include "core/calibration.h"
 #include "core/image.h"
 #include "core/rectify_map.h"
+#include "daemon/capture/synthetic_board.h"
 #include "daemon/capture/synthetic_world.h"
 
 namespace stereod {
@@ -28,8 +29,13 @@ class SyntheticScene {
   const Calibration& calibration() const { return calibration_; }
 
   /// What the cameras see in a frame ≥ 0, counted on past the end of the loop. Any number of threads at once.
-  GreyImage render_left(int frame) const { return render(left_, frame); }
-  GreyImage render_right(int frame) const { return render(right_, frame); }
+  /// `board`: stands before all else, its place told for the rectified left camera; nullptr: none.
+  GreyImage render_left(int frame, const SyntheticBoard* board = nullptr) const {
+    return render(left_, frame, board);
+  }
+  GreyImage render_right(int frame, const SyntheticBoard* board = nullptr) const {
+    return render(right_, frame, board);
+  }
 
   /// The true disparity, in pixels and fractions, of each pixel of the rectified left image; NaN where the
   /// left camera did not look.
@@ -55,7 +61,7 @@ class SyntheticScene {
   View make_view(const CameraCalibration& camera, double origin_x, float gain, float black_level,
                  std::uint64_t noise_seed) const;
   SceneRay rectified_ray(const View& view, float x, float y) const;
-  GreyImage render(const View& view, int frame) const;
+  GreyImage render(const View& view, int frame, const SyntheticBoard* board) const;
 
   int frames_;
   Calibration calibration_;

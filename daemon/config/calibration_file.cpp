@@ -1,33 +1,24 @@
 #include "daemon/config/calibration_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <sstream>
-#include <string_view>
 #include <vector>
 
+#include "daemon/config/text_file.h"
 #include "daemon/config/yaml_section.h"
 
 namespace stereod {
 
 namespace {
 
-// The ranges are wide enough for any camera and narrow enough to catch a number in the wrong place or unit.
-constexpr double kLongestFocal = 1e6;  // px
-
 double focal_length(YamlSection& section, const std::string& key) {
-  return section.required_number(key, 1, kLongestFocal);
+  return section.required_number(key, kShortestFocal_px, kLongestFocal_px);
 }
 
 double principal_point(YamlSection& section, const std::string& key) {
-  return section.required_number(key, -kLongestFocal, kLongestFocal);
+  return section.required_number(key, -kLongestFocal_px, kLongestFocal_px);
 }
 
 RectifiedProjection read_projection(YamlSection section) {
@@ -63,11 +54,10 @@ CameraCalibration read_camera(YamlSection section, Size image) {
 }
 
 CalibrationQuality read_quality(YamlSection section) {
-  constexpr double kLargestError = 1e6;  // px
   CalibrationQuality result;
-  result.pairs_used = section.required_integer("pairs_used", 0, 1'000'000);
-  result.rms_px = section.required_number("rms_px", 0, kLargestError);
-  result.epipolar_error_px = section.required_number("epipolar_error_px", 0, kLargestError);
+  result.pairs_used = section.required_integer("pairs_used", 0, kMostPairs);
+  result.rms_px = section.required_number("rms_px", 0, kLargestError_px);
+  result.epipolar_error_px = section.required_number("epipolar_error_px", 0, kLargestError_px);
   section.finish();
   return result;
 }
@@ -112,60 +102,15 @@ void write_camera(std::ostream& out, const char* name, const CameraCalibration& 
   out << "    cx: " << digits(c.projection.cx) << "\n    cy: " << digits(c.projection.cy) << "\n";
 }
 
-// A file that goes away with the object, unless it was renamed.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::filesystem::path& beside) : name_(beside.string() + ".XXXXXX") {
-    descriptor_ = ::mkostemp(name_.data(), O_CLOEXEC);
-    if (descriptor_ < 0) throw_errno("a temporary file cannot be made");
-  }
-  ~TemporaryFile() {
-    ::close(descriptor_);
-    if (!renamed_) ::unlink(name_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  void write(std::string_view text) {
-    while (!text.empty()) {
-      const ssize_t written = ::write(descriptor_, text.data(), text.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) throw_errno("writing failed");
-      text.remove_prefix(static_cast<std::size_t>(written));
-    }
-    // The daemon reads it as another user. On the disk before the rename, or a power cut leaves an empty
-    // file.
-    if (::fchmod(descriptor_, 0644) != 0 || ::fsync(descriptor_) != 0) throw_errno("writing failed");
-  }
-
-  const std::string& name() const { return name_; }
-
-  void rename_to(const std::filesystem::path& file) {
-    if (::rename(name_.c_str(), file.c_str()) != 0)
-      throw_errno("renaming it to " + file.string() + " failed");
-    renamed_ = true;
-  }
-
- private:
-  [[noreturn]] void throw_errno(const std::string& what) const {
-    throw FileError(name_ + ": the calibration was not written: " + what + ": " + std::strerror(errno));
-  }
-
-  std::string name_;
-  int descriptor_ = -1;
-  bool renamed_ = false;
-};
-
 }  // namespace
 
 Calibration read_calibration(const std::filesystem::path& file) {
   YamlSection root(file, load_yaml_map(file));
-  constexpr int kWidest = 16384;
   Calibration result;
   root.text("id", "");  // known, but not believed
-  result.image.width = root.required_integer("image_width", 1, kWidest);
-  result.image.height = root.required_integer("image_height", 1, kWidest);
-  result.baseline_m = root.required_number("baseline_m", 1e-4, 100);
+  result.image.width = root.required_integer("image_width", 1, kWidest_px);
+  result.image.height = root.required_integer("image_height", 1, kWidest_px);
+  result.baseline_m = root.required_number("baseline_m", kShortestBaseline_m, kLongestBaseline_m);
   result.left = read_camera(root.required_section("left"), result.image);
   result.right = read_camera(root.required_section("right"), result.image);
   result.quality = read_quality(root.required_section("quality"));
@@ -202,10 +147,7 @@ void write_calibration(const std::filesystem::path& file, const Calibration& cal
   if (const auto problem = problem_with(calibration)) {
     throw FileError(file.string() + ": the calibration was not written: " + *problem);
   }
-  TemporaryFile temporary(file);
-  temporary.write(calibration_text(calibration));
-  read_calibration(temporary.name());  // what cannot be read back replaces nothing
-  temporary.rename_to(file);
+  write_text_file(file, calibration_text(calibration));
 }
 
 }  // namespace stereod

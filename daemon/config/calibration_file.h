@@ -17,8 +17,8 @@ Calibration read_calibration(const std::filesystem::path& file);
 /// The file's text: commented, and every number with as many digits as reading it back to the bit takes.
 std::string calibration_text(const Calibration& calibration);
 
-/// Writes a sound calibration to a temporary file beside `file` and renames it, so that what was there before
-/// is replaced as a whole or not at all. Throws FileError.
+/// Writes a sound calibration as write_text_file() does: what was there before is replaced as a whole or not
+/// at all. Throws FileError.
 void write_calibration(const std::filesystem::path& file, const Calibration& calibration);
 
 }  // namespace stereod

@@ -51,7 +51,14 @@ void read_log(YamlSection section, CamerasConfig& cameras) {
   if (cameras.log_file.empty()) section.fail("file", "found nothing, needed is the name of an LCM log");
 }
 
+std::optional<SceneKind> parse_scene_kind(std::string_view name) {
+  if (name == "room") return SceneKind::kRoom;
+  if (name == "board") return SceneKind::kBoard;
+  return std::nullopt;
+}
+
 void read_synthetic(YamlSection section, CamerasConfig& cameras) {
+  cameras.scene = section.choice<SceneKind>("scene", cameras.scene, "room and board", parse_scene_kind);
   cameras.width = section.integer("width", cameras.width, 64, 1920);
   cameras.height = section.integer("height", cameras.height, 48, 1200);
   cameras.skew_ms = section.number("skew_ms", cameras.skew_ms, -100, 100);

@@ -22,6 +22,12 @@ enum class SourceKind {
   kLog,        ///< raw images in an LCM log
 };
 
+/// What the rendered cameras of source: synthetic see.
+enum class SceneKind {
+  kRoom,   ///< a room with boxes that stand and move
+  kBoard,  ///< a chessboard that is held before them as for calibrating
+};
+
 /// How the cameras' exposure is kept.
 enum class ExposureMode {
   kAuto,    ///< each camera as it likes
@@ -66,6 +72,7 @@ struct CamerasConfig {
   std::string log_prefix = "STEREO";  ///< of the channels in the log
   bool log_loop = false;
   // source: synthetic
+  SceneKind scene = SceneKind::kRoom;
   int width = 640, height = 480;
   double skew_ms = 0;  ///< how much later the right camera exposes
 

@@ -12,10 +12,10 @@
 
 #include "calib/report.h"
 #include "calib/solve.h"
-#include "calib/text_file.h"
 #include "core/depth.h"
 #include "daemon/capture/synthetic_scene.h"
 #include "daemon/config/calibration_file.h"
+#include "daemon/config/text_file.h"
 #include "daemon/tools/tap/frame_listener.h"
 #include "tests/support/board_scene.h"
 #include "tests/support/network.h"

@@ -3,15 +3,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <random>
 #include <sstream>
 
-#include "calib/text_file.h"
+#include "calib/lens_breakdown.h"
 #include "core/stereo_rectification.h"
 #include "daemon/config/file_error.h"
+#include "daemon/config/text_file.h"
 #include "tests/support/board_scene.h"
 #include "tests/support/picture_files.h"
 #include "tests/support/temporary_directory.h"
@@ -89,6 +92,75 @@ TEST(RosFiles, AreReadAsRosWritesThem) {
   EXPECT_FALSE(problem_with(c).has_value());  // although the file's rotation has five digits
 }
 
+// A rotation that is one to 1e-6 only, as other programs leave it or a person's hand, is kept as it is.
+TEST(RosFiles, ComeBackToTheBitWithRotationsOfAnyProgram) {
+  const TemporaryDirectory folder;
+  std::mt19937 random(8);
+  double worst = 0;
+  for (int seed = 0; seed < 40; ++seed) {
+    Calibration c = some_calibration(seed);
+    for (CameraCalibration* camera : {&c.left, &c.right}) {
+      for (double& number : camera->rotation.m) {
+        number += std::uniform_real_distribution<double>(-2.8e-7, 2.8e-7)(random);
+      }
+    }
+    const Matrix3 product = c.left.rotation * transposed(c.left.rotation);
+    for (std::size_t i = 0; i < 9; ++i) worst = std::max(worst, std::abs(product.m[i] - Matrix3{}.m[i]));
+    c.id = calibration_id(c);
+    write_ros(folder / "l.yaml", folder / "r.yaml", c);
+    ASSERT_EQ(read_ros(folder / "l.yaml", folder / "r.yaml"), c) << seed;
+  }
+  EXPECT_GT(worst, 3e-7);
+}
+
+std::vector<double> numbers_in(const std::filesystem::path& file) {
+  std::vector<double> numbers;
+  for (const char* matrix :
+       {"camera_matrix", "distortion_coefficients", "rectification_matrix", "projection_matrix"}) {
+    for (const YAML::Node& number : YAML::LoadFile(file.string())[matrix]["data"]) {
+      numbers.push_back(number.as<double>());
+    }
+  }
+  return numbers;
+}
+
+// Another program's files, read and written again: every number is the same, to the bit.
+TEST(RosFiles, OfOtherProgramsGoOutAsTheyCameIn) {
+  const TemporaryDirectory folder;
+  std::mt19937 random(9);
+  for (int round = 0; round < 50; ++round) {
+    // As camera_calibration writes them: 5 digits after the point, 8 in rotations.
+    const Calibration c = some_calibration(4 * round);
+    const auto file = [&](const CameraCalibration& camera, double shift) {
+      std::ostringstream text;
+      const auto list = [&](const char* name, int digits, const std::vector<double>& numbers) {
+        text << name << ": {rows: 1, cols: " << numbers.size() << ", data: [";
+        for (const double number : numbers) {
+          char digit[40];
+          std::snprintf(digit, sizeof digit, "%.*f, ", digits, number);
+          text << digit;
+        }
+        text << "]}\n";
+      };
+      const CameraModel& m = camera.camera;
+      const RectifiedProjection& p = camera.projection;
+      text << "image_width: 640\nimage_height: 480\ndistortion_model: plumb_bob\n";
+      list("camera_matrix", 5, {m.fx, 0, m.cx, 0, m.fy, m.cy, 0, 0, 1});
+      list("distortion_coefficients", 6, distortion_of(m));
+      list("rectification_matrix", 8, {camera.rotation.m.begin(), camera.rotation.m.end()});
+      list("projection_matrix", 5, {p.fx, 0, p.cx, shift, 0, p.fy, p.cy, 0, 0, 0, 1, 0});
+      return text.str();
+    };
+    write_text_file(folder / "l.yaml", file(c.left, 0));
+    write_text_file(folder / "r.yaml", file(c.right, -c.right.projection.fx * c.baseline_m));
+    const Calibration read = read_ros(folder / "l.yaml", folder / "r.yaml");
+    write_ros(folder / "l2.yaml", folder / "r2.yaml", read);
+    ASSERT_EQ(numbers_in(folder / "l2.yaml"), numbers_in(folder / "l.yaml")) << round;
+    ASSERT_EQ(numbers_in(folder / "r2.yaml"), numbers_in(folder / "r.yaml")) << round;
+    ASSERT_EQ(read_ros(folder / "l2.yaml", folder / "r2.yaml"), read) << round;
+  }
+}
+
 TEST(RosFiles, MistakesAreNamed) {
   const TemporaryDirectory folder;
   const auto complaint = [&](const std::string& left, const std::string& right) {
@@ -107,7 +179,11 @@ TEST(RosFiles, MistakesAreNamed) {
   EXPECT_THAT(spoiled("plumb_bob", "fov"), HasSubstr("distortion_model: found 'fov', allowed are plumb_bob"));
   EXPECT_THAT(spoiled("433.88, ", ""), HasSubstr("camera_matrix.data: found 8 values"));
   EXPECT_THAT(spoiled("433.88", "nan"), HasSubstr("camera_matrix.data"));
-  EXPECT_THAT(spoiled("433.88", "-433.88"), HasSubstr("focal lengths"));
+  EXPECT_THAT(spoiled("433.88", "-433.88"), HasSubstr("focal length is -433.88 px; allowed is 1 to 1000000"));
+  EXPECT_THAT(spoiled("[433.88, 0,", "[433.88, 2,"), HasSubstr("without skew"));
+  EXPECT_THAT(spoiled("-0.33722", "-33.722"),
+              HasSubstr("l.yaml: the left camera's distortion coefficients fold"));
+  EXPECT_THAT(complaint(right, right), HasSubstr("l.yaml"));
   EXPECT_THAT(spoiled("[0.99998", "[0.5"), HasSubstr("rotation is not one"));
   EXPECT_THAT(spoiled("640", "320"), HasSubstr("images are"));
   EXPECT_THAT(file_error_of([&] { read_ros(folder / "none.yaml", folder / "r.yaml"); }),
@@ -164,6 +240,9 @@ TEST(KalibrFiles, MistakesAreNamed) {
   EXPECT_THAT(spoiled("-0.110073808127187", "far"), HasSubstr("cam1.T_cn_cnm1"));
   EXPECT_THAT(spoiled("[752, 480]", "[640, 480]"), HasSubstr("different resolutions"));
   EXPECT_THAT(spoiled("cam1:", "cam2:"), HasSubstr("cam1: is missing"));
+  EXPECT_THAT(spoiled("458.654", "0"), HasSubstr("focal length is 0 px; allowed is 1 to 1000000"));
+  EXPECT_THAT(spoiled("-0.110073808127187", "-1e300"), HasSubstr("the baseline is 1e+300 m"));
+  EXPECT_THAT(spoiled("-0.28340811", "-28"), HasSubstr("the left camera's distortion coefficients fold"));
 }
 
 TEST(Exchange, RotationsOfFewDigitsAreMadeExactOthersStay) {
@@ -180,6 +259,27 @@ TEST(Exchange, RotationsOfFewDigitsAreMadeExactOthersStay) {
   Matrix3 none = exact;
   none.m[0] = 0.5;
   EXPECT_EQ(exact_rotation(none), none);
+}
+
+TEST(LensBreakdown, IsTheShareThatIsFoldedOver) {
+  CameraModel camera{{640, 480}, 500, 500, 319.5, 239.5};
+  EXPECT_EQ(lens_breakdown(camera), 0);
+  camera.k1 = -0.3, camera.k2 = 0.1;
+  EXPECT_EQ(lens_breakdown(camera), 0);
+  // Folds where 1 + 3·k1·r² = 0, at r = 1/3, which is seen 2/9 from the centre: 111 px.
+  camera.k1 = -3, camera.k2 = 0;
+  EXPECT_NEAR(lens_breakdown(camera), 1 - 3.14159 * 111.1 * 111.1 / (640 * 480), 0.02);
+  camera.k1 = -1e6;
+  EXPECT_GT(lens_breakdown(camera), 0.99);
+  camera.k1 = 1e300, camera.k3 = -1e300;
+  EXPECT_GT(lens_breakdown(camera), 0.9);
+
+  CameraModel fisheye{{640, 480}, 200, 200, 319.5, 239.5};
+  fisheye.lens = LensModel::kFisheye;
+  EXPECT_EQ(lens_breakdown(fisheye), 0);  // although its corners are beyond a right angle
+  // Folds where 1 + 3·k1·θ² = 0, at θ = 0.577, seen at 2/3 of that: 77 px.
+  fisheye.k1 = -1;
+  EXPECT_NEAR(lens_breakdown(fisheye), 1 - 3.14159 * 77 * 77 / (640 * 480), 0.02);
 }
 
 }  // namespace

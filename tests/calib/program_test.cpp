@@ -12,15 +12,17 @@
 #include "calib/depth_error.h"
 #include "calib/exchange.h"
 #include "calib/rectified_view.h"
-#include "calib/text_file.h"
 #include "core/depth.h"
 #include "core/match/frame_matcher.h"
 #include "core/rectify_map.h"
+#include "daemon/capture/synthetic_scene.h"
 #include "daemon/config/calibration_file.h"
+#include "daemon/config/text_file.h"
 #include "daemon/imagefile/read_image.h"
 #include "daemon/imagefile/write_image.h"
 #include "tests/support/board_scene.h"
 #include "tests/support/network.h"
+#include "tests/support/picture_files.h"
 #include "tests/support/recorded_pairs.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_directory.h"
@@ -83,10 +85,10 @@ TEST_F(Program, SolvesAFolderAndWritesCalibrationAndReport) {
                                  "--report", file("r.html")});
   EXPECT_EQ(result.status, 0) << result.out << result.err;
   EXPECT_THAT(result.out, StartsWith("verdict: good"));
-  EXPECT_THAT(result.out, HasSubstr("14 used, 4 held back to check with, 0 left out"));
+  EXPECT_THAT(result.out, HasSubstr("18 used, each held back once to check with, 0 left out"));
   const Calibration found = read_calibration(file("c.yaml"));
   EXPECT_NEAR(found.left.camera.fx / known_cameras(kImage).left.fx, 1, 0.003);
-  EXPECT_EQ(found.quality.pairs_used, 14);
+  EXPECT_EQ(found.quality.pairs_used, 18);
 
   const std::string page = text_of(file("r.html"));
   EXPECT_THAT(page, StartsWith("<!DOCTYPE html>"));
@@ -257,6 +259,116 @@ TEST_F(Program, ImportsWhatOpenCvsSampleWrites) {
   EXPECT_NEAR(read_calibration(file("d.yaml")).baseline_m, c.baseline_m, 1e-12);
 }
 
+// Numbers of no camera, in files as OpenCV's sample leaves them: one sentence that names file and matrix.
+TEST_F(Program, OpenCvFilesOfNoCameraAreRefused) {
+  const StereoCameras k = known_cameras(kImage);
+  const Calibration c = rectified_pair(k.left, k.right, k.pose);
+  const fs::path in = folder_ / "in.yml", ex = folder_ / "ex.yml";
+  write_opencv(in, ex, c);
+  std::string intrinsics = text_of(in), extrinsics = text_of(ex);
+  intrinsics.resize(intrinsics.find("image_width"));
+  extrinsics.resize(extrinsics.find("baseline_m"));
+  // The text with number `place` of a matrix replaced.
+  const auto spoiled = [](std::string text, const std::string& matrix, int place, const std::string& number) {
+    std::size_t at = text.find("data:", text.find(matrix + ":"));
+    at = text.find('[', at) + 1;
+    for (int i = 0; i < place; ++i) at = text.find(',', at) + 1;
+    return text.replace(at, text.find_first_of(",]", at) - at, " " + number);
+  };
+  const auto complaint = [&](const std::string& intrinsic, const std::string& extrinsic, Size size = kImage) {
+    write_text_file(in, intrinsic);
+    write_text_file(ex, extrinsic);
+    return file_error_of([&] { read_opencv(in, ex, {size}); });
+  };
+  ASSERT_EQ(complaint(intrinsics, extrinsics), "");
+  const auto with_m1 = [&](int place, const std::string& number) {
+    return complaint(spoiled(intrinsics, "M1", place, number), extrinsics);
+  };
+  const std::string focal = "in.yml: the left camera's focal length is ";
+  EXPECT_THAT(with_m1(0, "0."), HasSubstr(focal + "0 px; allowed is 1 to 1000000"));
+  EXPECT_THAT(with_m1(4, "-280."), HasSubstr(focal + "-280 px"));
+  EXPECT_THAT(with_m1(0, "1e300"), HasSubstr(focal + "1e+300 px"));
+  EXPECT_THAT(with_m1(0, ".Nan"), HasSubstr("in.yml: M1: allowed are finite numbers"));
+  EXPECT_THAT(with_m1(2, ".Inf"), HasSubstr("in.yml: M1: allowed are finite numbers"));
+  EXPECT_THAT(with_m1(2, "1e9"), HasSubstr("the left camera's principal point is 1000000000 px"));
+  EXPECT_THAT(with_m1(1, "3."), HasSubstr("in.yml: M1: allowed is fx, 0, cx"));
+  EXPECT_THAT(complaint(spoiled(intrinsics, "D2", 0, "-20."), extrinsics),
+              HasSubstr("in.yml: the right camera's distortion coefficients fold"));
+  EXPECT_THAT(complaint(spoiled(intrinsics, "D1", 4, "1e300"), extrinsics),
+              HasSubstr("in.yml: the left camera's distortion coefficients fold"));
+  EXPECT_THAT(complaint(intrinsics + "image_width: 1e300\nimage_height: 240\n", extrinsics, {}),
+              HasSubstr("in.yml: image_width: allowed is a number from 1 to 16384"));
+  EXPECT_THAT(complaint(intrinsics + "image_width: 0\nimage_height: 240\n", extrinsics, {}),
+              HasSubstr("in.yml: image_width: allowed is a number from 1 to 16384"));
+  EXPECT_THAT(complaint(intrinsics + "image_width: wide\nimage_height: 240\n", extrinsics, {}),
+              HasSubstr("in.yml: image_width: allowed is a number from 1 to 16384"));
+
+  const auto with_extrinsic = [&](const std::string& matrix, int place, const std::string& number) {
+    return complaint(intrinsics, spoiled(extrinsics, matrix, place, number));
+  };
+  EXPECT_THAT(with_extrinsic("R1", 0, "0.5"), HasSubstr("ex.yml: R1: is no rotation"));
+  EXPECT_THAT(with_extrinsic("P1", 0, "0."), HasSubstr("ex.yml: the left projection's focal length is 0 px"));
+  EXPECT_THAT(with_extrinsic("P2", 0, "0."),
+              HasSubstr("ex.yml: the right projection's focal length is 0 px"));
+  EXPECT_THAT(with_extrinsic("P2", 3, "0."), HasSubstr("ex.yml: the baseline is"));
+  EXPECT_THAT(with_extrinsic("P2", 3, "-1e300"), HasSubstr("ex.yml: the baseline is"));
+  EXPECT_THAT(with_extrinsic("P2", 3, "17."), HasSubstr("left and right are swapped"));
+  EXPECT_THAT(with_extrinsic("P2", 7, "-17."), HasSubstr("ex.yml: P2: the cameras stand above each other"));
+  EXPECT_THAT(complaint(intrinsics, extrinsics + "baseline_m: 1e300\n"),
+              HasSubstr("ex.yml: baseline_m: allowed"));
+  EXPECT_THAT(complaint(intrinsics, extrinsics + "baseline_m: 0.06\npairs_used: 1e300\n"),
+              HasSubstr("ex.yml: pairs_used: allowed"));
+
+  extrinsics.resize(extrinsics.find("R1:"));  // what is there is rectified anew
+  ASSERT_EQ(complaint(intrinsics, extrinsics), "");
+  EXPECT_THAT(with_extrinsic("R", 4, "0."), HasSubstr("ex.yml: R: is no rotation"));
+  EXPECT_THAT(with_extrinsic("T", 0, "-1e300"), HasSubstr("ex.yml: T: the cameras are 1e+300 m apart"));
+  EXPECT_THAT(with_extrinsic("T", 0, "-60."), Not(HasSubstr("T:")));  // 60 m are, if odd, a distance
+  EXPECT_THAT(
+      complaint(intrinsics, spoiled(spoiled(spoiled(extrinsics, "T", 0, "0."), "T", 1, "0."), "T", 2, "0.")),
+      HasSubstr("ex.yml: T: the cameras are 0 m apart"));
+}
+
+// A link is written through, as an editor does: what it points to is replaced as a whole, or not at all.
+TEST_F(Program, LinksStayWhatTheyPointToIsReplaced) {
+  const StereoCameras k = known_cameras(kImage);
+  const Calibration c = rectified_pair(k.left, k.right, k.pose);
+  write_ros(file("l.yaml"), file("r.yaml"), c);
+  fs::create_directories(folder_ / "real/deep");
+  fs::create_directory(folder_ / "etc");
+  fs::create_symlink("../real/deep/c.yaml", folder_ / "etc/middle.yaml");
+  fs::create_symlink("etc/middle.yaml", folder_ / "link.yaml");
+  const auto import = [&](const std::string& left, const std::string& output) {
+    return run({"import", "--ros", left, file("r.yaml"), "-o", output});
+  };
+  // There is nothing at its end yet; then there is, and it is kept where the import is bad.
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_EQ(import(file("l.yaml"), file("link.yaml")).status, 0);
+    EXPECT_TRUE(fs::is_symlink(folder_ / "link.yaml"));
+    EXPECT_TRUE(fs::is_symlink(folder_ / "etc/middle.yaml"));
+    EXPECT_EQ(read_calibration(folder_ / "real/deep/c.yaml").left, c.left);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "real/deep"), {}),
+              1);  // nothing is left beside it
+  }
+  const std::string before = text_of(folder_ / "real/deep/c.yaml");
+  EXPECT_EQ(import(file("r.yaml"), file("link.yaml")).status, 2);
+  EXPECT_EQ(text_of(folder_ / "link.yaml"), before);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.yaml"));
+  // Two names of one file are one, by whatever link.
+  const ProgramRun twice =
+      run({"export", file("link.yaml"), "--ros", file("l2.yaml"), file("real/deep/c.yaml")});
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("is named twice"));
+
+  fs::create_symlink("nowhere/c.yaml", folder_ / "broken.yaml");
+  fs::create_symlink("circle.yaml", folder_ / "circle.yaml");
+  fs::create_symlink("/dev/null", folder_ / "null.yaml");
+  EXPECT_THAT(import(file("l.yaml"), file("broken.yaml")).err, HasSubstr("there is no folder"));
+  EXPECT_THAT(import(file("l.yaml"), file("circle.yaml")).err, HasSubstr("leads in a circle"));
+  EXPECT_THAT(import(file("l.yaml"), file("null.yaml")).err, HasSubstr("a device or a pipe"));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
 TEST_F(Program, ChecksWithABoard) {
   const StereoCameras k = known_cameras(kImage);
   write_calibration(file("true.yaml"), rectified_pair(k.left, k.right, k.pose));
@@ -345,43 +457,30 @@ TEST_F(Program, BoardsAreFoundAgainInWhatIsPrinted) {
   EXPECT_NEAR(pixels / 100 * 25.4, 168, 0.3);  // six squares, mm
 }
 
-// Plays a board before two cameras: it moves, rests, moves on.
+// Against the cameras that the scene really has.
+void expect_found(const Calibration& found, const Calibration& truth) {
+  EXPECT_NEAR(found.left.camera.fx / truth.left.camera.fx, 1, 0.003);
+  EXPECT_NEAR(found.left.camera.fy / truth.left.camera.fy, 1, 0.003);
+  EXPECT_NEAR(found.right.camera.fx / truth.right.camera.fx, 1, 0.003);
+  EXPECT_NEAR(found.right.camera.fy / truth.right.camera.fy, 1, 0.003);
+  EXPECT_NEAR(found.baseline_m / truth.baseline_m, 1, 0.003);
+}
+
+// The daemon's synthetic cameras see a board that moves, rests, moves on; no camera is needed to practise.
 TEST_F(Program, CaptureGuidesTakesAndSolves) {
-  const StereoCameras cameras = known_cameras(kImage);
-  const BoardScene scene(cameras, kBoard);
-  const std::vector<BoardPose> poses = varied_poses(kBoard, 18);
-  fs::create_directory(folder_ / "play");
-  std::size_t number = 0;
-  const auto play = [&](const BoardPose& pose) {
-    const PicturePair pair = scene.render(pose, number);
-    write_png(folder_ / ("play/left_" + std::to_string(number) + ".png"), pair.left.view());
-    write_png(folder_ / ("play/right_" + std::to_string(number) + ".png"), pair.right.view());
-    ++number;
-  };
-  BoardPose away = poses[0];
-  away.translation_m.x += 2;
-  play(away);
-  for (const BoardPose& pose : poses) {
-    BoardPose passing = pose;
-    passing.translation_m.x += 0.01;
-    play(passing);
-    for (int frame = 0; frame < 4; ++frame) play(pose);
-  }
   write_text_file(folder_ / "config.yaml",
-                  "cameras:\n  source: replay\n  fps: 0\n  replay:\n    folder: play\n    loop: false\n");
+                  "cameras:\n  source: synthetic\n  fps: 0\n  synthetic: {scene: board}\n");
   const ProgramRun result =
       run({"capture", "--config", file("config.yaml"), "--board", "9x6", "--square", "25mm", "--port", "0",
-           "--pairs", "14", "--keep", file("kept"), "-o", file("c.yaml"), "--report", file("r.html")});
+           "--keep", file("kept"), "-o", file("c.yaml"), "--report", file("r.html")});
   EXPECT_EQ(result.status, 0) << result.out << result.err;
   for (const char* words : {"show the whole board to both cameras", "hold still", "tilt the board",
                             "left no ", "left yes right yes"}) {
     EXPECT_THAT(result.err, HasSubstr(words));
   }
   EXPECT_THAT(result.out, HasSubstr("pairs taken\nverdict: good"));
-  const Calibration found = read_calibration(file("c.yaml"));
-  EXPECT_NEAR(found.left.camera.fx / cameras.left.fx, 1, 0.003);
-  EXPECT_NEAR(found.baseline_m / 0.06, 1, 0.003);
-  EXPECT_TRUE(fs::exists(folder_ / "kept/left_13.png"));
+  expect_found(read_calibration(file("c.yaml")), SyntheticScene().calibration());
+  EXPECT_TRUE(fs::exists(folder_ / "kept/left_14.png"));
   EXPECT_TRUE(fs::exists(folder_ / "r.html"));
 }
 
@@ -397,31 +496,22 @@ TEST_F(Program, CaptureWithoutABoardSaysSo) {
   EXPECT_FALSE(fs::exists(folder_ / "c.yaml"));
 }
 
-// The daemon plays the board, stereo-calibrate takes its raw pictures over LCM.
+// The same through the running daemon, which shows the board; stereo-calibrate takes its raw pictures over
+// LCM.
 TEST_F(Program, CaptureTakesTheRunningDaemonsPictures) {
   if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
-  fs::create_directory(folder_ / "play");
-  std::size_t number = 0;
-  // At ten frames a second each pose rests for most of a second; the recording begins again until all is
-  // taken.
-  for (std::size_t pose = 0; pose < 16; ++pose) {
-    for (int frame = 0; frame < 8; ++frame, ++number) {
-      fs::create_symlink(left(pose), folder_ / ("play/left_" + std::to_string(number) + ".png"));
-      fs::create_symlink(right(pose), folder_ / ("play/right_" + std::to_string(number) + ".png"));
-    }
-  }
   write_text_file(folder_ / "config.yaml",
-                  "cameras:\n  source: replay\n  fps: 10\n  replay:\n    folder: play\n"
+                  "cameras:\n  source: synthetic\n  fps: 10\n  synthetic: {scene: board}\n"
                   "lcm:\n  prefix: BOARDS\n  raw_images: true\n  raw_images_per_second: 10\n");
   fs::create_directory(folder_ / "daemon");
   ChildProgram daemon(fs::path(STEREOD_BIN_DIR) / "stereod", {"--config", file("config.yaml")},
                       folder_ / "daemon");
-  const ProgramRun result = run({"capture", "--daemon", "--prefix", "BOARDS", "--square", "25mm", "--port",
-                                 "0", "--pairs", "10", "-o", file("c.yaml")});
+  const ProgramRun result = run(
+      {"capture", "--daemon", "--prefix", "BOARDS", "--square", "25mm", "--port", "0", "-o", file("c.yaml")});
   daemon.send(SIGTERM);
   EXPECT_EQ(daemon.wait().status, 0);
   EXPECT_EQ(result.status, 0) << result.out << result.err;
-  EXPECT_NEAR(read_calibration(file("c.yaml")).left.camera.fx / known_cameras(kImage).left.fx, 1, 0.01);
+  expect_found(read_calibration(file("c.yaml")), SyntheticScene().calibration());
 }
 
 // What the daemon plays, over LCM: with the board, then a scene without one; cameras as calibrated, then

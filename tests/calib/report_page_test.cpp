@@ -7,7 +7,7 @@
 #include <string>
 
 #include "calib/report.h"
-#include "calib/text_file.h"
+#include "daemon/config/text_file.h"
 #include "daemon/imagefile/read_image.h"
 #include "tests/support/board_scene.h"
 #include "tests/support/run_program.h"

@@ -60,7 +60,7 @@ TEST(Solve, FindsKnownCameras) {
   const SolveResult result = solve(known_pictures(), options_for(kBoard));
   expect_found(result.calibration, known_cameras({640, 480}));
   EXPECT_EQ(result.count(PairFate::kLeftOut), 0);
-  EXPECT_EQ(result.count(PairFate::kHeldBack), 4);
+  EXPECT_EQ(result.count(PairFate::kUsed), 20);
   EXPECT_LT(result.calibration.quality.rms_px, 0.15);
   EXPECT_LT(result.held_back.row_error_px, 0.1);
   EXPECT_LT(std::abs(result.held_back.scale_error), 0.002);
@@ -132,20 +132,23 @@ TEST(Solve, LeavesOutAPairWhoseBoardMoved) {
   }
 }
 
-// One that would have been held back itself: the next one stands in for it, and nothing else changes.
-TEST(Solve, AnotherPairStandsInForOneThatWouldBeHeldBack) {
+// What is said of a pair is measured with a calibration that it had no part in: with few pairs, which a model
+// with many coefficients is bent to, that is more than the calibration itself shows.
+TEST(Solve, TheErrorsAreThoseOfPairsHeldBack) {
   auto pictures = copy_of(known_pictures());
-  const SolveResult before = solve(pictures, options_for(kBoard));
-  std::size_t held = 0;
-  while (before.pairs[held].fate != PairFate::kHeldBack) ++held;
-  pictures[held].right = copy_of(pictures[19].right);
-  const SolveResult after = solve(pictures, options_for(kBoard));
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const PairFate want = i == held       ? PairFate::kLeftOut
-                          : i == held + 1 ? PairFate::kHeldBack
-                                          : before.pairs[i].fate;
-    EXPECT_EQ(after.pairs[i].fate, want) << i;
+  pictures.resize(7);
+  const SolveResult result = solve(pictures, options_for(kBoard, LensChoice::kThinPrism));
+  const Calibration& c = result.calibration;
+  double bent = 0, held_back = 0;
+  for (const PairResult& pair : result.pairs) {
+    ASSERT_EQ(pair.fate, PairFate::kUsed);
+    const BoardPose pose = solve_pose(c.left.camera, kBoard, pair.corners.left);
+    bent += check_pair(c, kBoard, pair.corners, pose).row_error_px / 7;
+    held_back += pair.check.row_error_px / 7;
   }
+  EXPECT_GT(held_back, 1.02 * bent);
+  EXPECT_NEAR(result.held_back.row_error_px, held_back, 1e-9);
+  EXPECT_EQ(c.quality.epipolar_error_px, result.held_back.row_error_px);
 }
 
 // Six pixels are a quarter of a square: less than any threshold on where the board is.
@@ -251,15 +254,34 @@ std::vector<PicturePair> pictures_of(const RealSet& set) {
   return read_pairs(input);
 }
 
-// Over the pairs calibrated with, but for one: how well the others fit should not change where that one is
-// left out, although the whole does if it was the one that fitted worst.
-double rms_without(const SolveResult& result, std::size_t without) {
-  double sum = 0, count = 0;
+// Over the pairs but for one: how well the others fit, and how far apart their rows are, should not change
+// where that one is left out, although the mean over all does if it was better or worse than most.
+struct Errors {
+  double rms_px = 0, row_px = 0;
+};
+Errors errors_without(const SolveResult& result, std::size_t without) {
+  Errors errors;
+  double count = 0;
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
     if (i == without || result.pairs[i].fate != PairFate::kUsed) continue;
-    sum += result.pairs[i].error_px * result.pairs[i].error_px, count += 1;
+    errors.rms_px += result.pairs[i].error_px * result.pairs[i].error_px;
+    errors.row_px += result.pairs[i].check.row_error_px;
+    count += 1;
   }
-  return std::sqrt(sum / count);
+  return {std::sqrt(errors.rms_px / count), errors.row_px / count};
+}
+
+void expect_left_out(const SolveResult& moved, const SolveResult& result, std::size_t pair) {
+  EXPECT_EQ(moved.pairs[pair].fate, PairFate::kLeftOut) << pair;
+  EXPECT_NE(moved.pairs[pair].reason.find("the board moved"), std::string::npos) << pair;
+  EXPECT_EQ(moved.count(PairFate::kLeftOut), 1) << pair;
+  const Calibration &a = result.calibration, &b = moved.calibration;
+  EXPECT_NEAR(b.left.camera.fx / a.left.camera.fx, 1, 0.05) << pair;
+  EXPECT_NEAR(b.right.camera.fx / a.right.camera.fx, 1, 0.05) << pair;
+  EXPECT_NEAR(b.baseline_m / a.baseline_m, 1, 0.05) << pair;
+  const Errors before = errors_without(result, pair), after = errors_without(moved, pair);
+  EXPECT_NEAR(after.rms_px / before.rms_px, 1, 0.05) << pair;
+  EXPECT_NEAR(after.row_px / before.row_px, 1, 0.05) << pair;
 }
 
 class SolveRealSet : public testing::TestWithParam<std::size_t> {};
@@ -269,28 +291,26 @@ TEST_P(SolveRealSet, IsAsGoodAsPromisedAndStaysSoWithAMovedBoard) {
   if (!fs::exists(set.folder)) GTEST_SKIP() << set.folder << " is not here";
   auto pictures = pictures_of(set);
   ASSERT_EQ(pictures.size(), set.pairs);
-  const SolveOptions options{std::nullopt, set.square_m, LensChoice::kPinhole};
+  SolveOptions options{std::nullopt, set.square_m, LensChoice::kPinhole};
   const SolveResult result = solve(pictures, options);
   EXPECT_EQ(result.board.columns, 9);
   EXPECT_EQ(result.board.rows, 6);
   EXPECT_LE(result.calibration.quality.rms_px, set.rms_px);
   EXPECT_LE(result.held_back.row_error_px, set.row_px);
-  EXPECT_GE(5 * result.count(PairFate::kHeldBack), static_cast<int>(pictures.size()));
   EXPECT_EQ(result.count(PairFate::kLeftOut), 0);
 
+  // Every fourth pair in turn shows another pair's board in its right picture.
+  options.board = result.board;
+  const std::vector<PairSearch> found = search_boards(pictures, result.board);
+  for (std::size_t pair = 0; pair < pictures.size(); pair += 4) {
+    const std::size_t other = (pair + 5) % pictures.size();
+    std::vector<PairSearch> spoiled = found;
+    spoiled[pair].corners.right = found[other].corners.right;
+    expect_left_out(solve_found(pictures, spoiled, options), result, pair);
+  }
+  // And all the way from the pictures.
   pictures[4].right = copy_of(pictures[9].right);
-  const SolveResult moved = solve(pictures, options);
-  EXPECT_EQ(moved.pairs[4].fate, PairFate::kLeftOut);
-  EXPECT_NE(moved.pairs[4].reason.find("the board moved"), std::string::npos);
-  EXPECT_EQ(moved.count(PairFate::kLeftOut), 1);
-  const Calibration &a = result.calibration, &b = moved.calibration;
-  EXPECT_NEAR(b.left.camera.fx / a.left.camera.fx, 1, 0.05);
-  EXPECT_NEAR(b.right.camera.fx / a.right.camera.fx, 1, 0.05);
-  EXPECT_NEAR(b.baseline_m / a.baseline_m, 1, 0.05);
-  EXPECT_NEAR(rms_without(moved, 4) / rms_without(result, 4), 1, 0.05);
-  // Of three pairs in the smallest set; a hundredth of a pixel is less than corners are found to.
-  EXPECT_NEAR(moved.held_back.row_error_px, result.held_back.row_error_px,
-              std::max(0.05 * result.held_back.row_error_px, 0.01));
+  expect_left_out(solve(pictures, options), result, 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, SolveRealSet, testing::Range<std::size_t>(0, 3), [](const auto& set) {
@@ -330,17 +350,20 @@ class StereoPiScenes : public testing::Test {
 };
 
 TEST_F(StereoPiScenes, RowsAlign) {
+  int too_few_points = 0;
   for (const PicturePair& scene : scenes_) {
     for (const Interpolation interpolation : {Interpolation::kNearest, Interpolation::kBilinear}) {
       const GreyImage left = rectified(found_.left, scene.left, interpolation);
       const GreyImage right = rectified(found_.right, scene.right, interpolation);
       const auto found = measured(left, right);
+      // One scene has so little texture that nearest pixels leave 41 points, too thinly spread to tell.
+      if (!found && interpolation == Interpolation::kNearest) {
+        ++too_few_points;
+        continue;
+      }
       ASSERT_TRUE(found.has_value()) << scene.name;
       EXPECT_LT(std::abs(found->row_offset_px), 0.3) << scene.name;
-      // The nearest pixel is up to half a row off, and a whole part of the image may be so to the same side.
-      if (interpolation == Interpolation::kBilinear) {
-        EXPECT_LT(found->row_error_px, 0.3) << scene.name;
-      }
+      EXPECT_LT(found->row_error_px, 0.3) << scene.name;
       // If they are apart, that is seen: the measurement does measure.
       GreyImage shifted(right.size());
       for (int y = 0; y < right.height(); ++y) {
@@ -351,6 +374,7 @@ TEST_F(StereoPiScenes, RowsAlign) {
       EXPECT_NEAR(off->row_offset_px, 2, 0.3) << scene.name;
     }
   }
+  EXPECT_LE(too_few_points, 1);
 }
 
 // What the daemon itself sees of it while it runs.

@@ -40,9 +40,15 @@ TEST(Calibration, ProblemsAreNamed) {
       {[&](Calibration& c) { c.right.projection.cx = -infinity; },
        "the right camera's projection cx is -inf, which is not a finite number"},
       {[](Calibration& c) { c.left.camera.fy = 0; },
-       "the left camera's focal lengths are 550 and 0 pixels; both must be greater than 0"},
+       "the left camera's focal length is 0 px; allowed is 1 to 1000000"},
       {[](Calibration& c) { c.right.projection.fx = -520; },
-       "the right projection's focal lengths are -520 and 521 pixels; both must be greater than 0"},
+       "the right projection's focal length is -520 px; allowed is 1 to 1000000"},
+      {[](Calibration& c) { c.right.camera.fx = 1e300; },
+       "the right camera's focal length is 1e+300 px; allowed is 1 to 1000000"},
+      {[](Calibration& c) { c.left.camera.cy = -2e6; },
+       "the left camera's principal point is -2000000 px; allowed is -1000000 to 1000000"},
+      {[](Calibration& c) { c.left.projection.cx = 1e9; },
+       "the left projection's principal point is 1000000000 px; allowed is -1000000 to 1000000"},
       {[](Calibration& c) { c.left.rotation.m[0] += 1e-5; },
        "the left camera's rotation is not one: its rows must be orthonormal to 0.000001 and its determinant "
        "+1"},
@@ -51,8 +57,8 @@ TEST(Calibration, ProblemsAreNamed) {
        },
        "the right camera's rotation is not one: its rows must be orthonormal to 0.000001 and its determinant "
        "+1"},
-      {[](Calibration& c) { c.baseline_m = 0; }, "the baseline is 0 m; it must be greater than 0"},
-      {[&](Calibration& c) { c.baseline_m = infinity; }, "the baseline is inf m; it must be greater than 0"},
+      {[](Calibration& c) { c.baseline_m = 0; }, "the baseline is 0 m; allowed is 0.0001 to 100"},
+      {[&](Calibration& c) { c.baseline_m = infinity; }, "the baseline is inf m; allowed is 0.0001 to 100"},
       {[](Calibration& c) { c.right.projection.fy = 520; },
        "the projections' fy differ (left 521, right 520), so the rows of the rectified images do not align"},
       {[](Calibration& c) { c.right.projection.cy = 240.5; },
@@ -63,13 +69,19 @@ TEST(Calibration, ProblemsAreNamed) {
       {[](Calibration& c) {
          c.image = {0, 480};
        },
-       "the image size is 0×480; width and height must be at least 1"},
+       "the image size is 0×480; width and height must be 1 to 16384"},
+      {[](Calibration& c) {
+         c.image = {640, 2'000'000'000};
+       },
+       "the image size is 640×2000000000; width and height must be 1 to 16384"},
       {[](Calibration& c) {
          c.right.camera.image = {320, 240};
        },
        "the right camera's images are 320×240, the calibration's are 640×480"},
       {[&](Calibration& c) { c.quality.rms_px = nan; },
-       "the quality's numbers are nan px and 0.2 px; both must be finite"},
+       "the quality's RMS is nan px; allowed is 0 to 1000000"},
+      {[](Calibration& c) { c.quality.pairs_used = -1; },
+       "the quality's number of pairs is -1; allowed is 0 to 1000000"},
   };
   for (const Case& each : cases) {
     Calibration calibration = sound();

@@ -68,7 +68,7 @@ cameras:
   max_skew_ms: 7
   replay: {left: l.png, right: /abs/r.png, loop: false}
   log: {file: field.lcm, prefix: REAR, loop: true}
-  synthetic: {width: 320, height: 240, skew_ms: 3}
+  synthetic: {scene: board, width: 320, height: 240, skew_ms: 3}
 calibration: calibration.yaml
 matcher:
   preset: fast
@@ -115,6 +115,7 @@ log: {level: debug}
   EXPECT_FALSE(config.cameras.replay_loop);
   EXPECT_EQ(config.cameras.width, 320);
   EXPECT_EQ(config.cameras.skew_ms, 3);
+  EXPECT_EQ(config.cameras.scene, SceneKind::kBoard);
   EXPECT_EQ(config.calibration, directory_ / "calibration.yaml");
   EXPECT_EQ(config.matcher.min_disparity, 3);
   EXPECT_EQ(config.matcher.disparities, 50);
@@ -326,6 +327,8 @@ INSTANTIATE_TEST_SUITE_P(
             "cameras:\n  source: replay\n  replay: {left: a.png}\n",
             "stereod.yaml:3: cameras.replay.left: found one of left and right, allowed are either left and "
             "right, two pictures, or folder, one with numbered pairs"},
+        BadConfig{"cameras: {source: synthetic, synthetic: {scene: bord}}\n",
+                  "stereod.yaml:1: cameras.synthetic.scene: found 'bord', allowed are room and board"},
         BadConfig{"cameras: {source: synthetic, fps: -1}\n",
                   "stereod.yaml:1: cameras.fps: found '-1', allowed are numbers from 0 to 240"},
         BadConfig{"cameras: {source: synthetic, fps: .nan}\n",

@@ -216,6 +216,69 @@ TEST(SyntheticSource, LendsTheScenesFramesInOrderAndOverAgain) {
   EXPECT_EQ(pair.left->state(), SourceState::kStreaming);
 }
 
+// Where the middle of each dark or bright square of the practice board is in a camera's picture.
+Point2 seen_at(const CameraCalibration& camera, double from_left_m, const Vector3& in_rectified_left) {
+  const Vector3 p{in_rectified_left.x - from_left_m, in_rectified_left.y, in_rectified_left.z};
+  const Vector3 ray = transposed(camera.rotation) * p;
+  return camera.camera.to_pixel(camera.camera.distort({ray.x / ray.z, ray.y / ray.z}));
+}
+
+TEST(SyntheticSource, HoldsABoardWhereBothCamerasSeeAllOfIt) {
+  for (const Size size : {Size{320, 240}, Size{640, 360}, Size{240, 240}}) {
+    const SyntheticPair pair = make_synthetic_pair({.size = size, .fps = 0, .board = true});
+    const double focal = pair.calibration.left.projection.fx;
+    const std::vector<BoardPlace> places = varied_places(kPracticeBoard, 0.4 * size.width / focal,
+                                                         0.47 * size.height / focal, 0.06, kBoardPlaces);
+    int same = 0, frames = 0, held = 0;
+    GreyImage last(size);
+    // Out of sight for four frames, then two on the way and four at rest for each place.
+    for (int n = 0; n < 4 + 6 * kBoardPlaces; ++n, ++frames) {
+      const FrameLease left = pair.left->next(20s), right = pair.right->next(20s);
+      ASSERT_TRUE(left && right);
+      GreyImage now = copy_of(left.frame().luma);
+      same += equal(now, last) ? 1 : 0;
+      last = std::move(now);
+      if (n < 4 || (n - 4) % 6 != 5) continue;
+      const BoardPlace& place = places[static_cast<std::size_t>(held++)];
+      for (int row = -1; row < kPracticeBoard.rows; ++row) {
+        for (int column = -1; column < kPracticeBoard.columns; ++column) {
+          const Vector3 on_board = place.rotation * Vector3{(column + 0.5) * kPracticeBoard.square_m,
+                                                            (row + 0.5) * kPracticeBoard.square_m, 0};
+          const Vector3 at{on_board.x + place.origin_m.x, on_board.y + place.origin_m.y,
+                           on_board.z + place.origin_m.z};
+          for (const bool is_left : {true, false}) {
+            const Point2 p = seen_at(is_left ? pair.calibration.left : pair.calibration.right,
+                                     is_left ? 0 : pair.calibration.baseline_m, at);
+            ASSERT_TRUE(p.x >= 0 && p.y >= 0 && p.x <= size.width - 1 && p.y <= size.height - 1)
+                << size.width << " place " << held << ' ' << column << ' ' << row
+                << (is_left ? " left" : " right");
+            const LumaView& luma = (is_left ? left : right).frame().luma;
+            const int grey = luma.data[std::lround(p.y) * luma.row_stride + std::lround(p.x)];
+            EXPECT_EQ(grey < 110, (row + column) % 2 == 0) << grey;
+          }
+        }
+      }
+    }
+    EXPECT_EQ(held, kBoardPlaces);
+    EXPECT_EQ(same, frames - 1 - 2 * kBoardPlaces);  // it rests, and moves twice on each way
+  }
+}
+
+TEST(SyntheticSource, HoldsABoardForTwoSecondsAtAnyRate) {
+  const SyntheticPair pair = make_synthetic_pair({.size = {64, 48}, .fps = 1000, .board = true});
+  const FrameLease first = pair.left->next(20s);
+  const std::uint8_t* const away = first.frame().luma.data;
+  std::uint32_t frame = 0;
+  while (frame < 1900) {
+    const FrameLease lease = pair.left->next(20s);
+    ASSERT_TRUE(lease);
+    frame = lease.frame().sequence;
+    if (frame <= 2000) {
+      EXPECT_EQ(lease.frame().luma.data, away) << frame;
+    }
+  }
+}
+
 TEST(SyntheticSource, AtRateZeroWaitsForTheLease) {
   const SyntheticPair pair = make_synthetic_pair({.size = {64, 48}, .fps = 0, .frames = 2});
   FrameLease left = pair.left->next(20s);

@@ -1,25 +1,17 @@
 #include "tests/support/board_scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 
+#include "daemon/capture/synthetic_board.h"
 #include "tests/support/random_images.h"
 
 namespace stereod {
 
 namespace {
 
-Vector3 plus(const Vector3& a, const Vector3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-
-// +1 in even squares, −1 in odd ones, with a ramp `width` squares wide between them.
-double wave(double at, double width) {
-  const double to_edge = at - std::round(at);
-  const bool odd_edge = std::fmod(std::abs(std::round(at)), 2) == 1;
-  const double ramp = std::clamp(to_edge / (width / 2), -1.0, 1.0);
-  return odd_edge ? -ramp : ramp;
-}
+BoardShape shape_of(const Board& board) { return {board.columns, board.rows, board.square_m}; }
 
 }  // namespace
 
@@ -60,29 +52,13 @@ BoardScene::View BoardScene::make_view(const CameraModel& camera) {
 GreyImage BoardScene::render(const View& view, const BoardPose& pose, std::uint64_t noise_seed) const {
   Random random(noise_seed);
   GreyImage picture(view.camera.image);
-  const Matrix3 back = transposed(pose.rotation);
-  const Vector3 origin = back * pose.translation_m;  // minus the camera's place on the board
+  const SyntheticBoard board(shape_of(board_), {pose.rotation, pose.translation_m}, view.camera.fx);
   for (int y = 0; y < picture.height(); ++y) {
+    SceneHit ground;  // infinitely far off
+    ground.brightness = 90 + 20 * static_cast<float>(y) / static_cast<float>(picture.height());
     for (int x = 0; x < picture.width(); ++x) {
-      double grey = 90 + 20.0 * y / picture.height();
-      const double ray_x = view.ray_x.at(x, y), ray_y = view.ray_y.at(x, y);
-      const Vector3 ray = back * Vector3{ray_x, ray_y, 1};
-      const double z = origin.z / ray.z;
-      if (z > 0.05) {
-        const double u = (ray.x * z - origin.x) / board_.square_m,
-                     v = (ray.y * z - origin.y) / board_.square_m;
-        // Lens and pixel smear an edge over about two pixels.
-        const double width = 2 * z / view.camera.fx / board_.square_m;
-        const bool on_board = u > -1 && v > -1 && u < board_.columns && v < board_.rows;
-        const bool on_border = u > -2 && v > -2 && u < board_.columns + 1 && v < board_.rows + 1;
-        if (on_board) {
-          grey = 125 - 90 * wave(u, width) * wave(v, width);
-        } else if (on_border) {
-          grey = 215;
-        }
-      }
-      grey += random.between(-3, 3);
-      picture.at(x, y) = static_cast<std::uint8_t>(std::clamp(grey, 0.0, 255.0));
+      const double grey = board.hit({0, view.ray_x.at(x, y), view.ray_y.at(x, y)}, ground).brightness;
+      picture.at(x, y) = static_cast<std::uint8_t>(std::clamp(grey + random.between(-3, 3), 0.0, 255.0));
     }
   }
   return picture;
@@ -107,26 +83,14 @@ std::vector<PicturePair> copy_of(const std::vector<PicturePair>& pairs) {
 }
 
 BoardPose board_at(const Board& board, const Vector3& middle, const Vector3& turn) {
-  BoardPose pose{rotation_about(turn), {}};
-  const Vector3 centre{(board.columns - 1) * board.square_m / 2, (board.rows - 1) * board.square_m / 2, 0};
-  const Vector3 turned = pose.rotation * centre;
-  pose.translation_m = plus(middle, {-turned.x, -turned.y, -turned.z});
-  return pose;
+  const BoardPlace place = board_place(shape_of(board), middle, turn);
+  return {place.rotation, place.origin_m};
 }
 
 std::vector<BoardPose> varied_poses(const Board& board, int count) {
-  Random random(11);
-  const auto within = [&](double reach) { return reach * random.between(-1000, 1000) / 1000; };
   std::vector<BoardPose> poses;
-  const double reach = std::max(board.columns, board.rows) * board.square_m;
-  for (int i = 0; i < count; ++i) {
-    const double z = reach * (1.45 + 0.4 * ((i + i / 9) % 3));
-    // Round the image, and the middle.
-    const int place = i % 9;
-    const double free_x = std::max(0.0, 0.5 * z - 0.5 * board.columns * board.square_m - 0.03);
-    const double free_y = std::max(0.0, 0.4 * z - 0.6 * board.rows * board.square_m);
-    const Vector3 middle{(place % 3 - 1) * free_x + 0.025, (place / 3 - 1) * free_y, z};
-    poses.push_back(board_at(board, middle, {within(0.4), within(0.4), within(0.12)}));
+  for (const BoardPlace& place : varied_places(shape_of(board), 0.5, 0.45, 0.06, count)) {
+    poses.push_back({place.rotation, place.origin_m});
   }
   return poses;
 }

@@ -7,12 +7,13 @@
 
 namespace stereod {
 
-/// Writes to a temporary file beside `file`, which it then replaces. Throws FileError; what was there before
-/// is then still there.
+/// Writes to a temporary file, which then replaces `file`, readable by all. Where `file` is a symbolic link,
+/// what it points to is replaced and the link stays. Throws FileError; what was there before is then still
+/// there.
 void write_text_file(const std::filesystem::path& file, std::string_view text);
 
-/// Throws FileError if a file of this name could not be written: its folder is not there, or it is a folder.
-/// For asking before long work.
+/// Throws FileError if a file of this name could not be written: its folder is not there, or it is a folder,
+/// a device, or a link that leads nowhere. For asking before long work.
 void require_writable(const std::filesystem::path& file);
 
 /// Throws FileError if two of the names are of one file, which would overwrite what is read or was just
