@@ -59,12 +59,20 @@ kernel_chosen() {
 }
 # names_of OUTCOME: the tests that ended so, each once.
 names_of() { sed -nE "s/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) .*$1 .*/\1/p" "$logs/$arch-tests.log" | sort -u; }
+# The daemon as it is installed, stripped; on this machine Package.Footprint holds it to the same.
+installed_size() { dpkg-deb --fsys-tarfile "$(only_package "$arch" stereod)" | tar -xO ./usr/bin/stereod | wc -c; }
+small_enough() {
+  local allowed
+  allowed=$(sed -n 's/^largest_binary=\([0-9]*\).*/\1/p' tests/package/footprint.sh)
+  echo "stereod: $(installed_size) bytes; allowed are $allowed"
+  [[ $(installed_size) -le $allowed ]]
+}
 kib() { echo $((($(stat -c %s "$1") + 1023) / 1024)); }
 
 # One architecture; leaves its line of the table in $line.
 one() {
   local status=0 passed=no kernel skipped
-  line="| $arch | no | | | |"
+  line="| $arch | no | | | | |"
   rm -f build/"$arch"/*.deb
   step sysroot toolchain/make-sysroot.sh "$arch" || return 1
   step configure cmake --preset "$arch" || return 1
@@ -79,23 +87,24 @@ one() {
   [[ $kernel != not* ]] || status=1
   line="| $arch | yes | $passed passed, $(comm -23 <(names_of '\*\*\*[^S].*') <(names_of Passed) | wc -l) failed, $skipped skipped | | $kernel |"
   step packages cpack --preset "$arch" || return 1
-  line="${line/| | $kernel/| $(kib "$(only_package "$arch" stereod)") KiB | $kernel}"
+  line="${line/| | $kernel/| $(kib "$(only_package "$arch" stereod)") KiB | $(installed_size) B | $kernel}"
+  step size small_enough || status=1
   step dependencies same_dependencies || status=1
   return "$status"
 }
 
 [[ $# -gt 0 ]] || set -- arm64 armhf i386
 mkdir -p "$logs"
-arch=amd64
+arch=package
 step packages make_native || die "the packages for this machine, to compare with, could not be made."
-table=("| amd64 | yes | tests/run.sh | $(kib "$(only_package package stereod)") KiB | by the CPU |")
+table=("| amd64 | yes | tests/run.sh | $(kib "$(only_package package stereod)") KiB | $(installed_size) B | by the CPU |")
 failed=()
 for arch in "$@"; do
   [[ -f toolchain/$arch.cmake ]] || die "there is no architecture '$arch'; there are arm64, armhf and i386."
   one || failed+=("$arch")
   table+=("$line")
 done
-printf '\n| architecture | builds | tests under emulation | stereod .deb | kernel chosen |\n|---|---|---|---|---|\n'
+printf '\n| architecture | builds | tests under emulation | stereod .deb | stripped `stereod` | kernel chosen |\n|---|---|---|---|---|---|\n'
 printf '%s\n' "${table[@]}"
 [[ ${#failed[@]} -eq 0 ]] || die "FAILED: ${failed[*]}."
 echo "cross/run.sh: passed: $*."

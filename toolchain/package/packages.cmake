@@ -157,6 +157,9 @@ and stereo-match (the same matcher on two files).")
 set(CPACK_DEBIAN_STEREOD_PACKAGE_CONTROL_EXTRA
   ${package_dir}/stereod/conffiles ${package_dir}/stereod/postinst ${package_dir}/stereod/prerm
   ${package_dir}/stereod/postrm)
+if(STEREOD_DEBIAN_ARCHITECTURE STREQUAL "i386")
+  list(APPEND CPACK_DEBIAN_STEREOD_PACKAGE_CONTROL_EXTRA ${package_dir}/stereod/i386/preinst)
+endif()
 
 set(CPACK_DEBIAN_STEREO-CALIBRATE_PACKAGE_NAME stereo-calibrate)
 set(CPACK_DEBIAN_STEREO-CALIBRATE_PACKAGE_SHLIBDEPS ON)
