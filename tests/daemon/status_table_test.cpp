@@ -144,7 +144,8 @@ TEST(StatusTable, ShowsEveryField) {
 TEST(StatusTable, StaysATableWithAnythingInIt) {
   status_t s{};
   s.utime = INT64_MAX;
-  s.reason = std::string(500, 'x') + "\x1b[0m\n";
+  s.reason = std::string(500, 'x');
+  s.reason += "\x1b[0m\n";
   s.uptime_s = -1;
   s.fps_in = 1e300 * 1e300;
   s.left.device = std::string(300, 'y');
