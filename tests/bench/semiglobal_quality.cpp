@@ -1,10 +1,12 @@
 // The semi-global matcher beside OpenCV's SGBM in its 3WAY mode: on pictures with ground truth, on the same
-// pictures disturbed, and on thin poles.
+// pictures disturbed, where something nearer hides what is there, on thin poles and in a street.
 //
 // bad-1 is the share, in percent, of pixels off by more than 1 px. OpenCV leaves as many columns empty at the
 // left border as it searches disparities; here it gets pictures that are wider by so much, so that it can
 // answer there too.
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -16,8 +18,10 @@
 #include <vector>
 
 #include "daemon/tools/evaluation.h"
+#include "tests/bench/pole_scene.h"
 #include "tests/bench/quality_matchers.h"
 #include "tests/bench/stereo_sets.h"
+#include "tests/bench/street_scene.h"
 
 namespace stereod::bench {
 namespace {
@@ -89,68 +93,56 @@ constexpr std::array<Disturbance, 6> kDisturbances{{{"none", as_they_are},
                                                     {"right picture 1 px lower", with_a_row},
                                                     {"JPEG of quality 70", with_jpeg}}};
 
-// --- poles
+// --- parts of pictures
 
-/// Poles before a wall: a pole is 40 px of disparity near, the wall 10.
-struct Poles {
-  StereoSet set;
-  cv::Mat1b on_pole;
-};
-
-cv::Mat1f texture(cv::RNG& random, cv::Size size) {
-  cv::Mat1f noise(size), smooth, scaled;
-  random.fill(noise, cv::RNG::UNIFORM, 0, 1);
-  cv::GaussianBlur(noise, smooth, {}, 1.2);
-  cv::Scalar mean, deviation;
-  cv::meanStdDev(smooth, mean, deviation);
-  constexpr double kMiddle = 128, kContrast = 35;
-  smooth.convertTo(scaled, CV_32F, kContrast / deviation[0], kMiddle - kContrast * mean[0] / deviation[0]);
-  return scaled;
-}
-
-Poles poles(int width) {
-  constexpr int kRows = 240, kColumns = 640, kNear = 40, kFar = 10, kFirst = 121, kStep = 59, kEnd = 600;
-  cv::RNG random(3);
-  const cv::Mat1f wall = texture(random, {kColumns + 64, kRows});
-  cv::Mat1f left = wall(cv::Rect(0, 0, kColumns, kRows)).clone();
-  cv::Mat1f right = wall(cv::Rect(kFar, 0, kColumns, kRows)).clone();
-  Poles result{{}, cv::Mat1b(kRows, kColumns, std::uint8_t{0})};
-  for (int x = kFirst; x < kEnd; x += kStep) {
-    cv::Mat1f pole;
-    texture(random, {width, kRows}).convertTo(pole, CV_32F, 0.6, 20);
-    pole.copyTo(left(cv::Rect(x, 0, width, kRows)));
-    pole.copyTo(right(cv::Rect(x - kNear, 0, width, kRows)));
-    result.on_pole(cv::Rect(x, 0, width, kRows)) = 1;
-  }
-  constexpr double kNoise = 2;
-  const auto camera = [&](const cv::Mat1f& picture) {
-    cv::Mat1f noise(picture.size());
-    cv::Mat seen;
-    random.fill(noise, cv::RNG::NORMAL, 0, kNoise);
-    cv::add(picture, noise, seen, cv::noArray(), CV_8U);
-    return seen;
-  };
-  result.set = {"poles", camera(left), camera(right), Image<float>(kColumns, kRows), 64};
-  for (int y = 0; y < kRows; ++y) {
-    for (int x = 0; x < kColumns; ++x) {
-      result.set.truth.at(x, y) = static_cast<float>(result.on_pole(y, x) != 0 ? kNear : kFar);
+/// Where something nearer hides from the right camera what the left one sees: another pixel of the row is the
+/// right pixel's that this one would have.
+cv::Mat1b hidden(const StereoSet& set) {
+  cv::Mat1b result(set.truth.height(), set.truth.width(), std::uint8_t{0});
+  for (int y = 0; y < result.rows; ++y) {
+    std::vector<float> nearest(static_cast<std::size_t>(result.cols) + 1, 0.0F);  // of right pixels
+    const auto match = [&](int x) {
+      return static_cast<int>(std::lround(static_cast<float>(x) - set.truth.at(x, y)));
+    };
+    const auto known = [&](int x) { return std::isfinite(set.truth.at(x, y)) && match(x) >= 0; };
+    for (int x = 0; x < result.cols; ++x) {
+      if (!known(x)) continue;
+      float& there = nearest[static_cast<std::size_t>(match(x))];
+      there = std::max(there, set.truth.at(x, y));
+    }
+    for (int x = 0; x < result.cols; ++x) {
+      if (!known(x)) continue;
+      const auto at = static_cast<std::size_t>(match(x));
+      if (std::max(nearest[at], nearest[at + 1]) > set.truth.at(x, y) + 1) result(y, x) = 1;
     }
   }
   return result;
 }
 
-double share_found(const QualityMatcher& matcher, const Poles& poles) {
-  const DisparityImage found = matcher.match(poles.set, poles.set.disparities);
-  int on = 0, right = 0;
+/// Of the pixels where `part` is `wanted`, in percent.
+struct PartFigures {
+  double bad = 0;       ///< off by more than 1 px, or unmatched
+  double too_near = 0;  ///< nearer by more than 1 px
+  double matched = 0;
+};
+
+PartFigures judge_part(const DisparityImage& found, int units_per_pixel, const StereoSet& set,
+                       const cv::Mat1b& part, int wanted) {
+  int all = 0, right = 0, near = 0, matched = 0;
   for (int y = 0; y < found.height(); ++y) {
     for (int x = 0; x < found.width(); ++x) {
-      if (poles.on_pole(y, x) == 0) continue;
-      ++on;
-      const double px = static_cast<double>(found.at(x, y)) / matcher.units_per_pixel;
-      if (found.at(x, y) >= 0 && std::abs(px - static_cast<double>(poles.set.truth.at(x, y))) <= 1) ++right;
+      if (part(y, x) != wanted) continue;
+      ++all;
+      if (found.at(x, y) < 0) continue;
+      ++matched;
+      const double off =
+          static_cast<double>(found.at(x, y)) / units_per_pixel - static_cast<double>(set.truth.at(x, y));
+      if (std::abs(off) <= 1) ++right;
+      if (off > 1) ++near;
     }
   }
-  return 100.0 * right / on;
+  const double share = all == 0 ? 0 : 100.0 / all;
+  return {share * (all - right), share * near, share * matched};
 }
 
 // --- tables
@@ -213,12 +205,49 @@ void print_disturbances(const std::vector<QualityMatcher>& all, std::vector<Ster
   }
 }
 
+void print_hidden(const std::vector<QualityMatcher>& all, const std::vector<StereoSet>& sets) {
+  print_headings("hidden: bad, too near; dens.", all);
+  std::printf("%-28s", "mean");
+  for (const QualityMatcher& matcher : all) {
+    PartFigures mean;
+    for (const StereoSet& set : sets) {
+      const PartFigures of_set =
+          judge_part(matcher.match(set, set.disparities), matcher.units_per_pixel, set, hidden(set), 1);
+      const double share = 1.0 / static_cast<double>(sets.size());
+      mean.bad += share * of_set.bad, mean.too_near += share * of_set.too_near,
+          mean.matched += share * of_set.matched;
+    }
+    std::printf("%8.2f%7.2f%7.1f", mean.bad, mean.too_near, mean.matched);
+  }
+  std::printf("\n");
+}
+
 void print_poles(const std::vector<QualityMatcher>& all) {
   print_headings("pixels on poles found, %", all);
   for (const int width : {3, 4, 6, 8}) {
     const Poles scene = poles(width);
     std::printf("%-28s", ("poles of " + std::to_string(width) + " px").c_str());
-    for (const QualityMatcher& matcher : all) std::printf("%22.1f", share_found(matcher, scene));
+    for (const QualityMatcher& matcher : all) {
+      const DisparityImage found = matcher.match(scene.set, scene.set.disparities);
+      std::printf("%22.1f",
+                  100 - judge_part(found, matcher.units_per_pixel, scene.set, scene.on_pole, 1).bad);
+    }
+    std::printf("\n");
+  }
+}
+
+void print_street(const std::vector<QualityMatcher>& all) {
+  print_headings("street: bad, too near; dens.", all);
+  const Street scene = street();
+  std::vector<DisparityImage> found;
+  for (const QualityMatcher& matcher : all) found.push_back(matcher.match(scene.set, scene.set.disparities));
+  for (std::size_t part = 0; part < kStreetParts.size(); ++part) {
+    std::printf("%-28s", kStreetParts[part]);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const PartFigures f =
+          judge_part(found[i], all[i].units_per_pixel, scene.set, scene.part, static_cast<int>(part));
+      std::printf("%8.2f%7.2f%7.1f", f.bad, f.too_near, f.matched);
+    }
     std::printf("\n");
   }
 }
@@ -231,10 +260,12 @@ int run(const std::vector<std::string>& names) {
     std::printf("%s: %s\n", matcher.name.c_str(), matcher.settings.c_str());
   }
   print_sets(all, found.sets);
+  if (!found.sets.empty()) print_hidden(all, found.sets);
   // Disturbed: the 18 Middlebury sets.
   std::erase_if(found.sets, [](const StereoSet& set) { return set.name.rfind("mb", 0) != 0; });
   if (!found.sets.empty()) print_disturbances(all, found.sets);
   print_poles(all);
+  print_street(all);
   return 0;
 }
 

@@ -14,6 +14,9 @@ namespace {
 using Costs = std::vector<int>;
 constexpr int kMost = 255;
 
+/// Disparities that differ by less are of one surface: 1.5 px, in 1/16 px.
+constexpr int kNear = 24;
+
 /// A row of pixels, or of points of the grid, with their costs.
 using CostRow = std::vector<Costs>;
 
@@ -263,13 +266,27 @@ class Definition {
             around.push_back(grid[at(v)][at(u)] ? grid[at(v)][at(u)]->units : -1);
         }
         std::sort(around.begin(), around.end());
-        const int middle = around[4];
+        const int middle = thin_or(grid, x, y, around[4]);
         const bool measured = grid[at(y)][at(x)].has_value();
         result[at(y)][at(x)].reset();
         if (middle >= 0 && (measured || options_.fill)) result[at(y)][at(x)] = Value{middle, !measured};
       }
     }
     return result;
+  }
+
+  /// The median of a point and the two above and below, if it is clearly nearer than the one of nine and
+  /// there is another like it, so that what is thin and upright stays; else the one of nine.
+  static int thin_or(const std::vector<ValueRow>& grid, int x, int y, int of_nine) {
+    constexpr int kClose = 8;
+    std::array<int, 3> column{};
+    for (int i = 0; i < 3; ++i) {
+      const std::optional<Value>& value = grid[at(y - 1 + i)][at(x)];
+      column[at(i)] = value ? value->units : -1;
+    }
+    std::sort(column.begin(), column.end());
+    const bool has_another = column[1] - column[0] < kClose || column[2] - column[1] < kClose;
+    return column[1] > of_nine + kNear && has_another ? column[1] : of_nine;
   }
 
   static void fill(ValueRow& row) {
@@ -292,24 +309,34 @@ class Definition {
 
   // --- 5: from the grid to the picture
 
-  static std::optional<Value> between(std::optional<Value> a, std::optional<Value> b) {
-    constexpr int kNear = 24;
+  /// The steps are those in grey values to the two.
+  static std::optional<Value> between(std::optional<Value> a, int step_to_a, std::optional<Value> b,
+                                      int step_to_b) {
     if (!a || !b) return a ? a : b;
     if (std::abs(a->units - b->units) < kNear)
       return Value{(a->units + b->units) / 2, a->filled || b->filled};
+    if (step_to_a != step_to_b) return step_to_a < step_to_b ? a : b;
     return a->units < b->units ? a : b;
   }
 
-  std::optional<Value> value_in_row(const ValueRow& row, int x) const {
+  int grey_step(int x, int y, int to_x, int to_y) const {
+    return std::abs(pixel(left_, x, y) - pixel(left_, to_x, to_y));
+  }
+
+  std::optional<Value> value_in_row(const std::vector<ValueRow>& grid, int x, int grid_y) const {
+    const ValueRow& row = grid[at(grid_y)];
     const int left = x / column_step_;
     if (x % column_step_ == 0) return row[at(left)];
-    return between(row[at(left)], row[at(std::min(left + 1, grid_width_ - 1))]);
+    const int y = image_row(grid_y);
+    return between(row[at(left)], grey_step(x, y, x - 1, y), row[at(std::min(left + 1, grid_width_ - 1))],
+                   grey_step(x, y, x + 1, y));
   }
 
   std::optional<Value> value_at(const std::vector<ValueRow>& grid, int x, int y) const {
-    const std::optional<Value> upper = value_in_row(grid[at(y / 2)], x);
+    const std::optional<Value> upper = value_in_row(grid, x, y / 2);
     if (y % 2 == 0) return upper;
-    return between(upper, value_in_row(grid[at(std::min(y / 2 + 1, grid_height_ - 1))], x));
+    return between(upper, grey_step(x, y, x, y - 1),
+                   value_in_row(grid, x, std::min(y / 2 + 1, grid_height_ - 1)), grey_step(x, y, x, y + 1));
   }
 
   std::int16_t output(std::optional<Value> value, int x, int y) const {

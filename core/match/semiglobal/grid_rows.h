@@ -7,7 +7,7 @@
 
 namespace stereod::semiglobal {
 
-/// The compiler's vectors of so many bytes; of Bytes as many as of Values.
+/// The compiler's vectors of so many bytes; of Bytes as many as of Values, of Pixels twice as many.
 template <int kBytes>
 struct VectorTypes;
 
@@ -17,6 +17,7 @@ struct VectorTypes<16> {
   using Ints [[gnu::vector_size(16)]] = std::int32_t;
   using Reals [[gnu::vector_size(16)]] = float;
   using Bytes [[gnu::vector_size(8)]] = std::uint8_t;
+  using Pixels [[gnu::vector_size(16)]] = std::uint8_t;
 };
 
 template <>
@@ -25,6 +26,7 @@ struct VectorTypes<32> {
   using Ints [[gnu::vector_size(32)]] = std::int32_t;
   using Reals [[gnu::vector_size(32)]] = float;
   using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
+  using Pixels [[gnu::vector_size(32)]] = std::uint8_t;
 };
 
 /// Kernel::interpolate_row and the functions of the kernel that follow it.
@@ -33,6 +35,7 @@ class GridRows {
   static constexpr int kColumns = V::kBytes / 2;
   using Values = typename VectorTypes<V::kBytes>::Values;  // a comparison gives −1 where it holds
   using Bytes = typename VectorTypes<V::kBytes>::Bytes;
+  using Pixels = typename VectorTypes<V::kBytes>::Pixels;
   static_assert(2 * kColumns <= kValueMargin, "the median looks at the vectors before and after");
 
  public:
@@ -60,19 +63,37 @@ class GridRows {
     for (int x = 0; x < width; x += kColumns) {
       const auto column = [&](int at) { return sorted(load(above + at), load(row + at), load(below + at)); };
       const Values here = load(row + x);
-      const Values found = median_of(column(x - 1), column(x), column(x + 1));
+      const Column own = column(x);
+      const Values of_nine = median_of(column(x - 1), own, column(x + 1));
+      // Of something thin and upright: kNone is too far from what is that near to be close to it.
+      const Values to_next = lesser(own.most - own.middle, own.middle - own.least);
+      const Values thin = (own.middle > of_nine + 2 * kNear) & (to_next < Values{} + 2 * kClose);
+      const Values found = thin < Values{} ? own.middle : of_nine;
       store(out + x, found | (here < Values{} ? Values{} + filled : Values{}));
     }
     out[0] = row[0];
     out[width - 1] = row[width - 1];
   }
 
-  static void widen(GridValue* row, int image_width, GridValue* out) {
+  static void likeness(const std::uint8_t* row, const std::uint8_t* next, const std::uint8_t* after,
+                       int width, std::uint8_t* out) {
+    constexpr int kAcrossShift = 8;
+    for (int x = 0; x < width; x += V::kBytes) {
+      const Pixels here = load_pixels(row + x);
+      const Pixels across = unlike<kAcrossShift>(here, load_pixels(row + x - 1), load_pixels(row + x + 1));
+      const Pixels down = unlike<kDownShift>(load_pixels(next + x), here, load_pixels(after + x));
+      const Pixels both = across | down;
+      __builtin_memcpy(out + x, &both, sizeof(both));
+    }
+  }
+
+  static void widen(GridValue* row, int image_width, const std::uint8_t* likeness, GridValue* out) {
     const int width = (image_width + 1) / 2;
     row[width] = row[width - 1];
     for (int x = 0; x < width; x += kColumns) {
       const Values here = load(row + x);
-      const Values next = between_two(here, load(row + x + 1));
+      const Values odd_columns = load(likeness + 2 * x);  // in the upper bytes
+      const Values next = between_two(here, load(row + x + 1), odd_columns);
       if constexpr (kColumns == 8) {
         store(out + 2 * x, __builtin_shufflevector(here, next, 0, 8, 1, 9, 2, 10, 3, 11));
         store(out + 2 * x + 8, __builtin_shufflevector(here, next, 4, 12, 5, 13, 6, 14, 7, 15));
@@ -85,8 +106,11 @@ class GridRows {
     }
   }
 
-  static void between(const GridValue* a, const GridValue* b, int width, GridValue* out) {
-    for (int x = 0; x < width; x += kColumns) store(out + x, between_two(load(a + x), load(b + x)));
+  static void between(const GridValue* a, const GridValue* b, int width, const std::uint8_t* likeness,
+                      GridValue* out) {
+    for (int x = 0; x < width; x += kColumns) {
+      store(out + x, between_two(load(a + x), load(b + x), load_bytes(likeness + x) << kDownShift));
+    }
   }
 
   static void disparities(const GridValue* row, int width, const Disparities& what, std::int16_t* out) {
@@ -128,6 +152,15 @@ class GridRows {
 
  private:
   static constexpr int kUnits = kSubpixelUnits;
+  static constexpr GridValue kNear = kUnits * 3 / 2;
+  static constexpr GridValue kClose = kUnits / 2;
+
+  // Set with two values where a pixel between them does not look like the first or the second one. No value
+  // reaches these bits. In a byte of likeness() they stand for the pixels of the row moved down by one number
+  // of bits, for those of the next row by another.
+  static constexpr GridValue kNotFirst = 0x4000, kNotSecond = 0x2000;
+  static constexpr int kDownShift = 10;
+
   using Ints = typename VectorTypes<V::kBytes>::Ints;
   using Reals = typename VectorTypes<V::kBytes>::Reals;
 
@@ -214,14 +247,31 @@ class GridRows {
                   lesser(lesser(a.most, b.most), c.most));
   }
 
-  static Values between_two(Values a, Values b) {
-    constexpr GridValue kNear = kUnits * 3 / 2;
+  static Pixels load_pixels(const std::uint8_t* p) {
+    Pixels pixels;
+    __builtin_memcpy(&pixels, p, sizeof(pixels));
+    return pixels;
+  }
+
+  static Pixels grey_step(Pixels a, Pixels b) { return (a < b ? b : a) - (a < b ? a : b); }
+
+  template <int kShift>
+  static Pixels unlike(Pixels middle, Pixels first, Pixels second) {
+    const Pixels to_first = grey_step(middle, first);
+    const Pixels to_second = grey_step(middle, second);
+    const Pixels none{};
+    return (to_second < to_first ? none + (kNotFirst >> kShift) : none) |
+           (to_first < to_second ? none + (kNotSecond >> kShift) : none);
+  }
+
+  static Values between_two(Values a, Values b, Values likeness) {
     const Values a_units = a >> 1;
     const Values b_units = b >> 1;
     const Values step = a_units - b_units;
     const Values least = lesser(a, b);
+    const Values liked = lesser(a | (likeness & kNotFirst), b | (likeness & kNotSecond));
     const Values average = ((a_units + b_units) >> 1) * 2 | ((a | b) & 1);
-    const Values both = greater(step, -step) < Values{} + kNear ? average : least;
+    const Values both = greater(step, -step) < Values{} + kNear ? average : liked;
     return least < Values{} ? greater(a, b) : both;
   }
 

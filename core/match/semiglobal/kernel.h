@@ -104,18 +104,29 @@ struct Kernel {
   /// those outside the right picture. Rows of values, here and below, have kValueMargin.
   void (*interpolate_row)(const Shape&, const WinnerRow&, GridValue* out);
 
-  /// Median of the 3×3 values around each; the outermost columns stay. Where there is none a value stands for
-  /// less than any, so most of nine decide. Points without a value get one only if `fill`, marked as filled.
+  /// Median of the 3×3 values around each, or of the three of its column where that one is more than 1.5 px
+  /// nearer and less than 0.5 px from another of the three: what is thin and upright has no majority of nine.
+  /// The outermost columns stay. Where there is none a value stands for less than any, so most decide. Points
+  /// without a value get one only if `fill`, marked as filled.
   void (*median_row)(const GridValue* above, const GridValue* row, const GridValue* below, int width,
                      bool fill, GridValue* out);
 
+  /// For the pixels of a row of the left picture and of the `next` one, which of two neighbours they look
+  /// like: those of `row` the ones at their left and right, those of `next` the ones in `row` and in `after`.
+  /// As widen_row() and between_rows() understand it. Reads up to 32 pixels beside the rows, and writes up to
+  /// 32 bytes beyond.
+  void (*likeness_row)(const std::uint8_t* row, const std::uint8_t* next, const std::uint8_t* after,
+                       int width, std::uint8_t* out);
+
   /// From the coarse grid's points to every column of the picture: between two of them stands what
   /// between_rows() says. Writes one element after the row.
-  void (*widen_row)(GridValue* row, int image_width, GridValue* out);
+  void (*widen_row)(GridValue* row, int image_width, const std::uint8_t* likeness, GridValue* out);
 
   /// What stands between two values, column by column: their average if they are less than 1.5 px apart, else
-  /// the lower one; the other one if one is not there.
-  void (*between_rows)(const GridValue* a, const GridValue* b, int width, GridValue* out);
+  /// the one whose pixel looks more like the one between, the lower one if both do alike; the other one if
+  /// one is not there. `likeness` is of the row of `a`.
+  void (*between_rows)(const GridValue* a, const GridValue* b, int width, const std::uint8_t* likeness,
+                       GridValue* out);
 
   /// From a row of values to disparities of the picture, as match() writes them.
   void (*disparities_of_row)(const GridValue* row, int width, const Disparities&, std::int16_t* out);

@@ -73,6 +73,7 @@ constexpr Kernel make_kernel() {
           Dispatch<V>::count_at_most,
           GridRows<V>::interpolate,
           GridRows<V>::median,
+          GridRows<V>::likeness,
           GridRows<V>::widen,
           GridRows<V>::between,
           GridRows<V>::disparities,

@@ -12,6 +12,7 @@ using semiglobal::kSmoothReach;
 using semiglobal::Shape;
 
 constexpr int kCostRows = 2 * kSmoothReach + 2;  // that two rows are smoothed from
+constexpr int kLikenessRows = kCostRows;         // from the last row compared to those that become final
 constexpr int kRawRows = 4;                      // more than the median looks at
 constexpr int kOutputRows = 16;                  // more than the last push finishes
 
@@ -44,6 +45,7 @@ SemiglobalMatcher::SemiglobalMatcher(const MatcherOptions& options, Size image)
       pixel_costs_(options_, shape_, kernel_),
       costs_((shape_.grid_width() + 2) * shape_.point_bytes(), kCostRows),
       limits_(shape_.grid_width() + kValues, kCostRows),
+      likeness_(image.width + kValues, kLikenessRows),
       padding_(static_cast<std::size_t>(shape_.point_bytes())),
       smoothed_(shape_.grid_width() * shape_.point_bytes(), 2),
       sums_(shape_.grid_width() * shape_.point_bytes(), 2),
@@ -106,6 +108,8 @@ semiglobal::PixelRows SemiglobalMatcher::pixel_rows(RowRing<std::uint8_t>& input
 void SemiglobalMatcher::compare_row(int g) noexcept {
   const int y = 2 * g;
   pixel_costs_.write(pixel_rows(left_input_, y), pixel_rows(right_input_, y), cost_row(g));
+  const auto left = [&](int v) { return left_row(std::min(v, image_.height - 1)); };
+  kernel_.likeness_row(left(y), left(y + 1), left(y + 2), image_.width, likeness_.row(g));
   kernel_.step_limits(left_row(y), shape_.grid_width(), shape_.column_step, options_.p2, limits_.row(g));
 }
 
@@ -161,14 +165,14 @@ void SemiglobalMatcher::finish_grid_row(int g) noexcept {
 
 void SemiglobalMatcher::write_grid_row(int g, GridValue* row) noexcept {
   if (options_.grid == Grid::kCoarse) {
-    kernel_.widen_row(row, image_.width, wide_row(g));
+    kernel_.widen_row(row, image_.width, likeness_.row(g), wide_row(g));
   } else {
     std::copy_n(row, image_.width, wide_row(g));
   }
   const int y = 2 * g;
   if (y - 1 >= output_.first && y - 1 < output_.end) {
     GridValue* between = between_.row(0) + kValues;
-    kernel_.between_rows(wide_row(g - 1), wide_row(g), image_.width, between);
+    kernel_.between_rows(wide_row(g - 1), wide_row(g), image_.width, likeness_.row(g - 1), between);
     write_row(y - 1, between);
   }
   if (y >= output_.first && y < output_.end) write_row(y, wide_row(g));
@@ -206,9 +210,9 @@ std::size_t SemiglobalMatcher::scratch_bytes() const noexcept {
     return static_cast<std::size_t>(image.view().stride()) * static_cast<std::size_t>(image.height());
   };
   return left_input_.bytes() + right_input_.bytes() + pixel_costs_.scratch_bytes() + costs_.bytes() +
-         limits_.bytes() + padding_.size() + bytes(smoothed_) + bytes(sums_) + bytes(winners_) +
-         tests_.scratch_bytes() + raw_.bytes() + bytes(median_) + wide_.bytes() + bytes(between_) +
-         output_rows_.bytes();
+         limits_.bytes() + likeness_.bytes() + padding_.size() + bytes(smoothed_) + bytes(sums_) +
+         bytes(winners_) + tests_.scratch_bytes() + raw_.bytes() + bytes(median_) + wide_.bytes() +
+         bytes(between_) + output_rows_.bytes();
 }
 
 }  // namespace stereod

@@ -66,8 +66,9 @@ class SemiglobalMatcher final : public BandMatcher {
 
   RowRing<std::uint8_t> left_input_, right_input_;
   semiglobal::PixelCosts pixel_costs_;
-  RowRing<std::uint8_t> costs_;   // with a point's worth on either side
-  RowRing<std::uint8_t> limits_;  // P2 less the step in grey values from each point to the one at its left
+  RowRing<std::uint8_t> costs_;     // with a point's worth on either side
+  RowRing<std::uint8_t> limits_;    // P2 less the step in grey values from each point to the one at its left
+  RowRing<std::uint8_t> likeness_;  // of the pixels between the points, see Kernel::likeness_row
   AlignedBuffer<std::uint8_t> padding_;
   Image<std::uint8_t> smoothed_, sums_;  // of two rows
   Image<std::uint16_t> winners_;

@@ -1,0 +1,27 @@
+// Pictures of disparities side by side, each with two lines of words above it.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "core/disparity.h"
+#include "daemon/imagefile/disparity_picture.h"
+
+namespace stereod::bench {
+
+struct Caption {
+  std::string first_line, second_line;
+};
+
+/// Disparities in the colours of `range`.
+cv::Mat panel(const DisparityImage& disparity, int units_per_pixel, DisparityRange range,
+              const Caption& caption);
+
+/// All of the same height.
+cv::Mat row_of_panels(const std::vector<cv::Mat>& panels);
+
+/// Writes the rows, one below the other, as PNG. Throws std::runtime_error.
+void write_rows(const std::string& path, const std::vector<cv::Mat>& rows);
+
+}  // namespace stereod::bench

@@ -1,0 +1,19 @@
+// Thin things, rendered: poles before a wall.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "tests/bench/stereo_sets.h"
+
+namespace stereod::bench {
+
+/// A pole is 40 px of disparity near, the wall 10.
+struct Poles {
+  StereoSet set;
+  cv::Mat1b on_pole;  ///< 1 where the left picture shows a pole
+};
+
+/// Poles of so many px.
+Poles poles(int width);
+
+}  // namespace stereod::bench
