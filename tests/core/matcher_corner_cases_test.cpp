@@ -277,5 +277,11 @@ TEST(MatcherCorners, ScratchMemoryIsSmall) {
   }
 }
 
+TEST(MatcherCorners, SemiglobalScratchMemoryIsSmaller) {
+  EXPECT_LE(make_band_matcher(*matcher_preset("robust"), {640, 480})->scratch_bytes(), 300'000U);
+  EXPECT_LE(make_band_matcher(*matcher_preset("dense"), {640, 480})->scratch_bytes(), 300'000U);
+  EXPECT_LE(make_band_matcher(*matcher_preset("fine"), {640, 480})->scratch_bytes(), 550'000U);
+}
+
 }  // namespace
 }  // namespace stereod

@@ -14,7 +14,7 @@ using semiglobal::Shape;
 constexpr int kCostRows = 2 * kSmoothReach + 2;  // that two rows are smoothed from
 constexpr int kLikenessRows = kCostRows;         // from the last row compared to those that become final
 constexpr int kRawRows = 4;                      // more than the median looks at
-constexpr int kOutputRows = 16;                  // more than the last push finishes
+constexpr int kOutputRows = 12;                  // as many as the last push finishes
 
 Shape shape_for(const MatcherOptions& options, int width, int lanes) {
   Shape shape{};
