@@ -224,6 +224,8 @@ TEST_F(BrowserTest, ComesBackWhenDaemonAndServerWereAway) {
   ChildProgram view(kBin / "stereo-view", arguments, directory_.path());
   EXPECT_TRUE(wait_until([&] { return std::stoi(browser.evaluate("view.shown")) > shown + 10; }));
   EXPECT_TRUE(wait_until([&] { return state() == "streaming"; }));
+  stereod.send(SIGKILL);
+  EXPECT_TRUE(wait_until([&] { return state().rfind("nothing from stereod for ", 0) == 0; }));
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <climits>
 #include <cmath>
+#include <cstdint>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -34,6 +36,7 @@ TEST(LiveView, GivesAFrameAndWhatBelongsToIt) {
   status.cpu_percent = NAN;
   view.take(std::move(status));
   planar_lidar_t scan{};
+  scan.utime = utime_of(7);
   scan.ranges = {1.5F, 0.0F};
   scan.intensities = {70, 0};
   view.take(std::move(scan));
@@ -87,12 +90,55 @@ TEST(LiveView, ShowsAStatusWhenThereAreNoFrames) {
 
 image_t grey_image(int width, int height) {
   image_t image{};
+  image.utime = utime_of(1);
   image.width = image.row_stride = width;
   image.height = height;
   image.pixelformat = 1497715271;
   image.size = width * height;
   image.data.assign(static_cast<std::size_t>(image.size), 90);
   return image;
+}
+
+planar_lidar_t scan_of(std::int64_t utime, std::vector<float> ranges) {
+  planar_lidar_t scan{};
+  scan.utime = utime;
+  scan.intensities.assign(ranges.size(), 70);
+  scan.ranges = std::move(ranges);
+  return scan;
+}
+
+TEST(LiveView, ShowsNothingThatHasCeasedToCome) {
+  LiveView view;
+  const std::int64_t utime = utime_of(9);
+  const auto shown = [&](std::int64_t scan_age_us, std::int64_t left_age_us) {
+    view.take(scan_of(utime - scan_age_us, {1.5F}));
+    image_t left = grey_image(64, 48);
+    left.utime = utime - left_age_us;
+    view.take(left);
+    view.take(frame_of(9), {});
+    const auto moment = view.wait_newer(0, 0ms);
+    return std::pair(moment->scan.has_value(), !moment->left_jpeg.empty());
+  };
+  EXPECT_EQ(shown(0, 0), std::pair(true, true));
+  EXPECT_EQ(shown(1'900'000, 11'000'000), std::pair(true, true));
+  EXPECT_EQ(shown(2'000'000, 0), std::pair(false, true));
+  EXPECT_EQ(shown(0, 12'000'000), std::pair(true, false));
+  EXPECT_EQ(shown(-3'000'000, INT64_MIN / 2), std::pair(false, false));
+}
+
+TEST(LiveView, PassesOverScansThatNoDaemonMakes) {
+  const std::int64_t utime = utime_of(9);
+  planar_lidar_t uneven = scan_of(utime, {1, 2});
+  uneven.intensities.pop_back();
+  planar_lidar_t nowhere = scan_of(utime, {1, 2});
+  nowhere.radstep = NAN;
+  for (const planar_lidar_t& scan : {scan_of(utime, std::vector<float>(1025, 1.0F)), scan_of(utime, {NAN}),
+                                     scan_of(utime, {-1}), scan_of(utime, {1e12F}), uneven, nowhere}) {
+    LiveView view;
+    view.take(planar_lidar_t(scan));
+    view.take(frame_of(9), {});
+    EXPECT_FALSE(view.wait_newer(0, 0ms)->scan.has_value());
+  }
 }
 
 TEST(LiveView, TakesTheLeftImageGreyOrAsJpeg) {

@@ -1,6 +1,7 @@
 #include "daemon/tools/view/live_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -14,6 +15,25 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kQuiet{1};  // without frames for so long, the status alone is worth showing
+
+// What belongs to a frame so much older or newer is not shown with it: it has ceased to come. Left images may
+// be 10 s apart.
+constexpr std::int64_t kScanUs = 2'000'000;
+constexpr std::int64_t kLeftUs = 12'000'000;
+
+bool is_near(std::int64_t utime, std::int64_t other, std::int64_t us) {
+  return utime > other - us && utime < other + us;
+}
+
+// As the daemon makes them; a page that draws anything else would be busy for long.
+bool is_sane(const planar_lidar_t& scan) {
+  constexpr std::size_t kMostRays = 1024;
+  constexpr float kFarthest = 1000;  // m
+  return scan.ranges.size() <= kMostRays && scan.intensities.size() == scan.ranges.size() &&
+         std::isfinite(scan.rad0) && std::isfinite(scan.radstep) &&
+         std::all_of(scan.ranges.begin(), scan.ranges.end(),
+                     [](float r) { return r >= 0 && r <= kFarthest; });
+}
 
 std::vector<std::uint8_t> jpeg_of(const image_t& image) {
   const bool sane = image.width > 0 && image.width <= kLargestImageSide && image.height > 0 &&
@@ -38,6 +58,7 @@ void LiveView::take(StereoFrame&& frame, const ReceptionCounts& counts) {
 }
 
 void LiveView::take(planar_lidar_t&& scan) {
+  if (!is_sane(scan)) return;
   const std::lock_guard lock(mutex_);
   scan_ = std::move(scan);
 }
@@ -61,12 +82,15 @@ void LiveView::publish_locked(std::optional<StereoFrame>&& frame) {
   auto moment = std::make_shared<Moment>();
   moment->number = ++number_;
   moment->frame = std::move(frame);
-  moment->scan = scan_;
+  const auto& shown = moment->frame;
+  if (shown && scan_ && is_near(scan_->utime, shown->utime, kScanUs)) moment->scan = scan_;
   moment->status = status_;
   moment->status_age_ms =
       std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - status_came_).count();
-  moment->left_jpeg = left_jpeg_;
-  moment->left_utime = left_utime_;
+  if (shown && is_near(left_utime_, shown->utime, kLeftUs)) {
+    moment->left_jpeg = left_jpeg_;
+    moment->left_utime = left_utime_;
+  }
   moment->counts = counts_;
   newest_ = std::move(moment);
   changed_.notify_all();

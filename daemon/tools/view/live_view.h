@@ -21,7 +21,7 @@ namespace stereod {
 struct Moment {
   std::int64_t number = 0;  ///< counts up from 1 with everything new; not the frame's
   std::optional<StereoFrame> frame;
-  std::optional<planar_lidar_t> scan;
+  std::optional<planar_lidar_t> scan;  ///< and left image: none if the newest is too far from the frame
   std::optional<status_t> status;
   std::int64_t status_age_ms = 0;
   std::vector<std::uint8_t> left_jpeg;  ///< the newest left image; empty: none
@@ -34,6 +34,7 @@ class LiveView {
  public:
   /// What arrives; a frame makes a new moment of all that was there before it.
   void take(StereoFrame&& frame, const ReceptionCounts& counts);
+  /// One that the daemon cannot have made is passed over.
   void take(planar_lidar_t&& scan);
   /// Without frames (no cameras, say) a status makes a moment, too.
   void take(status_t&& status);

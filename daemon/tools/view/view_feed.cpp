@@ -19,7 +19,10 @@ StereoClient::Options client_options(const LcmReceiver& opened, const std::strin
 
 ViewFeed::ViewFeed(const std::string& lcm_url, const std::string& prefix, LiveView& view)
     : others_(lcm_url), frames_(client_options(others_, prefix)) {
-  frames_.on_frame([this, &view](StereoFrame&& frame) { view.take(std::move(frame), frames_.counts()); });
+  frames_.on_frame([this, &view](StereoFrame&& frame) {
+    take_others();  // its scan was sent before its end
+    view.take(std::move(frame), frames_.counts());
+  });
   others_.subscribe(prefix + "_STATUS", [&view](std::span<const std::byte> bytes) {
     status_t status;
     if (decode_message(bytes, status)) view.take(std::move(status));
@@ -34,10 +37,14 @@ ViewFeed::ViewFeed(const std::string& lcm_url, const std::string& prefix, LiveVi
   });
 }
 
-void ViewFeed::run_once() {
+void ViewFeed::take_others() {
   constexpr int kMost = 100;  // messages, so that frames have their turn
   for (int i = 0; i < kMost && others_.receive(std::chrono::milliseconds(0)); ++i) {
   }
+}
+
+void ViewFeed::run_once() {
+  take_others();
   frames_.handle(20);
 }
 

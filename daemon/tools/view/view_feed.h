@@ -18,6 +18,8 @@ class ViewFeed {
   void run_once();
 
  private:
+  void take_others();
+
   LcmReceiver others_;  // opened first: its complaints are the better ones
   StereoClient frames_;
 };

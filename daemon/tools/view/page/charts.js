@@ -59,7 +59,8 @@ function drawScan(canvas, scan) {
   c.strokeStyle = '#465063';
   c.fillStyle = '#a7b1bf';
   c.textAlign = 'left';
-  for (let metres = 1; metres <= farthest; ++metres) {
+  const apart = Math.ceil(farthest / 10);
+  for (let metres = apart; metres <= farthest; metres += apart) {
     c.beginPath();
     c.arc(x0, y0, metres * scale, Math.PI, 2 * Math.PI);
     c.stroke();

@@ -82,7 +82,7 @@ class Cloud {
     if (gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED) return false;
     gl.deleteSync(this.fence);
     this.fence = null;
-    this.took += 0.3 * (now - this.began - this.took);
+    this.took += 0.3 * (Math.min(now - this.began, 200) - this.took);  // at most: nothing is drawn in a hidden tab
     if (this.took > 40 && this.spacing < 8) this.spacing++, this.took = 30;
     if (this.took < 20 && this.spacing > 2) this.spacing--, this.took = 30;
     return true;

@@ -1,7 +1,7 @@
 'use strict';
 // Fetches one moment after the other and shows it. The newest is `view.moment`; a person, and the tests, may look.
 const byId = id => document.getElementById(id);
-const view = { moment: null, values: null, paused: false, shown: 0, told: 0, latency: [], skew: [], times: [] };
+const view = { moment: null, values: null, paused: false, shown: 0, told: 0, heard: 0, latency: [], skew: [], times: [] };
 const cloud = new Cloud(byId('cloud'));
 let leftImage = null;  // ImageData of the newest left image
 
@@ -55,13 +55,18 @@ async function decode(moment, buffer, at) {
   const bytes = new Uint8Array(buffer, at, moment.disparity_bytes);
   const left = new Uint8Array(buffer, at + moment.disparity_bytes, moment.left_bytes);
   const [values, picture] = await Promise.all([
-    moment.frame ? disparities(bytes, moment.frame) : null, moment.left_bytes ? pictureOf(left) : null]);
+    moment.frame ? disparities(bytes, moment.frame) : null,
+    moment.left_bytes ? pictureOf(left).catch(() => null) : null]);  // anybody may send what is no picture
   return { moment, values, picture };
 }
 
 function drawLeft(picture) {
   byId('no-left').hidden = Boolean(picture);
-  if (!picture) return;
+  if (!picture) {
+    leftImage = null;
+    byId('left').getContext('2d', { willReadFrequently: true }).clearRect(0, 0, byId('left').width, byId('left').height);
+    return;
+  }
   const canvas = byId('left'), width = picture.displayWidth || picture.width, height = picture.displayHeight || picture.height;
   if (canvas.width !== width || canvas.height !== height) {
     canvas.width = width;
@@ -242,6 +247,7 @@ function showPointer() {
 }
 
 function show({ moment, values, picture }) {
+  view.heard = performance.now();
   view.moment = moment;
   view.values = values;
   drawLeft(picture);
@@ -256,6 +262,7 @@ function show({ moment, values, picture }) {
 
 byId('pause').addEventListener('click', () => {
   view.paused = !view.paused;
+  view.heard = performance.now();
   byId('pause').textContent = view.paused ? 'Go on' : 'Pause';
 });
 
@@ -288,6 +295,15 @@ byId('save').addEventListener('click', () => {
   byId('disparity').toBlob(blob => download(name + '.png', blob));
   if (leftImage) byId('left').toBlob(blob => download(name + '-left.png', blob));
 });
+
+// A stereod that has ended says nothing of it.
+setInterval(() => {
+  const seconds = Math.round((performance.now() - view.heard) / 1000);
+  if (!view.moment || view.paused || seconds < 3 || byId('state').textContent.startsWith('connection')) return;
+  byId('state').textContent = `nothing from stereod for ${seconds} s`;
+  byId('state').className = 'state';
+  byId('fps').textContent = '–';
+}, 1000);
 
 const pause = ms => new Promise(done => setTimeout(done, ms));
 

@@ -68,7 +68,9 @@ class ChannelWindow implements LCMSubscriber {
             } else if (channel.endsWith("_DISPARITY")) {
                 show(rows.take(new disparity_rows_t(in)));
             } else {
-                show(pictureOf(new image_t(in)));
+                BufferedImage picture = pictureOf(new image_t(in));
+                if (picture == null) rows.ignored++;
+                show(picture);
             }
         } catch (IOException | RuntimeException | OutOfMemoryError error) {  // not a message of ours
             rows.ignored++;
