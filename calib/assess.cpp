@@ -13,7 +13,7 @@ Assessment assess(const SolveResult& result) {
   int disagreeing = 0;
   for (const PairResult& pair : result.pairs) {
     if (pair.fate == PairFate::kLeftOut) {
-      disagreeing += pair.corners.left.empty() || pair.corners.right.empty() ? 0 : 1;
+      disagreeing += pair.disagrees ? 1 : 0;
       continue;
     }
     a.left.add(pair.corners.left);

@@ -1,6 +1,7 @@
 #include "calib/solve.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -51,6 +52,7 @@ class Solver {
       if (pair.reason.empty()) drop_if_seen_before(i);
       if (pair.reason.empty()) good_.push_back(i);
     }
+    seen_ = good_;
     require_enough();
   }
 
@@ -93,13 +95,15 @@ class Solver {
     result_.calibration.quality.rms_px = rms_px_;
   }
 
-  // Each group held back in turn. A pair's group is its place in the list, whatever pairs are good: so one
-  // bad pair more or less moves no other.
+  // Each group held back in turn.
   void cross_check(const std::vector<PicturePair>& pictures) {
     MatchedBoards matched(result_.board);
+    const Indices groups = groups_of_good();
     for (std::size_t group = 0; group < kHeldBackGroups; ++group) {
       Indices held_back, others;
-      for (const std::size_t i : good_) (i % kHeldBackGroups == group ? held_back : others).push_back(i);
+      for (std::size_t place = 0; place < good_.size(); ++place) {
+        (groups[place] == group ? held_back : others).push_back(good_[place]);
+      }
       if (held_back.empty()) continue;
       // What is found does not depend on where the search begins; from here it is short.
       const StereoCameras cameras = solve_both(others, cameras_.left, cameras_.right).cameras;
@@ -133,7 +137,24 @@ class Solver {
            "): the board moved, or the two pictures were not taken at the same moment";
   }
 
+  // By the places of those that show a sharp board, whichever of them agree: so one that does not moves no
+  // other. If that put most of those left into one group, by their own places.
+  Indices groups_of_good() const {
+    Indices groups;
+    std::array<std::size_t, kHeldBackGroups> sizes{};
+    for (const std::size_t i : good_) {
+      const auto place = std::find(seen_.begin(), seen_.end(), i) - seen_.begin();
+      groups.push_back(static_cast<std::size_t>(place) % kHeldBackGroups);
+      ++sizes[groups.back()];
+    }
+    if (2 * *std::max_element(sizes.begin(), sizes.end()) > good_.size()) {
+      for (std::size_t place = 0; place < groups.size(); ++place) groups[place] = place % kHeldBackGroups;
+    }
+    return groups;
+  }
+
   void leave_out(std::size_t i, std::string reason) {
+    result_.pairs[i].disagrees = true;
     result_.pairs[i].fate = PairFate::kLeftOut;
     result_.pairs[i].reason = std::move(reason);
   }
@@ -239,7 +260,7 @@ class Solver {
   Size image_;
   const SolveOptions& options_;
   SolveResult& result_;
-  Indices good_;
+  Indices seen_, good_;
   StereoCameras cameras_;
   double rms_px_ = 0;
 };

@@ -22,10 +22,11 @@ enum class PairFate {
 struct PairResult {
   std::string name;
   PairFate fate = PairFate::kLeftOut;
-  std::string reason;   ///< why it was left out
-  BoardPair corners;    ///< empty lists where no board was found
-  double error_px = 0;  ///< root mean square distance of corners from where they belong
-  PairCheck check;      ///< while it was held back; not for pairs left out
+  std::string reason;      ///< why it was left out
+  bool disagrees = false;  ///< with the others, or with a flat board, and so left out
+  BoardPair corners;       ///< empty lists where no board was found
+  double error_px = 0;     ///< root mean square distance of corners from where they belong
+  PairCheck check;         ///< while it was held back; not for pairs left out
 };
 
 struct SolveResult {

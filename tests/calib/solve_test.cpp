@@ -284,6 +284,27 @@ void expect_left_out(const SolveResult& moved, const SolveResult& result, std::s
   EXPECT_NEAR(after.row_px / before.row_px, 1, 0.05) << pair;
 }
 
+// Whatever stands between the good pairs, they are held back a fifth at a time; and what is no pair of a
+// board does not count as one that disagrees.
+TEST(Solve, HoldsBackAFifthWhereverTheGoodPairsStand) {
+  const std::vector<PicturePair>& pictures = known_pictures();
+  const SolveResult result = solve(pictures, options_for(kBoard));
+  std::vector<PairSearch> found = search_boards(pictures, kBoard), spread;
+  std::vector<PicturePair> with_gaps;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    for (int gap = 0; gap < 5; ++gap) {
+      with_gaps.push_back({pictures[i].name, copy_of(pictures[i].left), copy_of(pictures[i].right)});
+      spread.push_back(gap == 0 ? found[i] : PairSearch{});
+      if (gap > 0) spread.back().problem = "no chessboard in the left picture";
+    }
+  }
+  const SolveResult spread_result = solve_found(with_gaps, spread, options_for(kBoard));
+  EXPECT_EQ(spread_result.count(PairFate::kUsed), result.count(PairFate::kUsed));
+  EXPECT_DOUBLE_EQ(spread_result.held_back.row_error_px, result.held_back.row_error_px);
+  EXPECT_FALSE(std::any_of(spread_result.pairs.begin(), spread_result.pairs.end(),
+                           [](const PairResult& p) { return p.disagrees; }));
+}
+
 class SolveRealSet : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(SolveRealSet, IsAsGoodAsPromisedAndStaysSoWithAMovedBoard) {
