@@ -10,6 +10,9 @@
 namespace stereod {
 namespace {
 
+// Patches are missing where less than one in so many of the usual ones is found.
+constexpr double kMissing = 3;
+
 std::int64_t thread_cpu_ns() noexcept {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -52,7 +55,7 @@ void AlignmentMonitor::remember(const Point& point) noexcept {
   const double found = point.found ? 1 : 0;
   found_lately_ += (found - found_lately_) / 24;
   found_usually_ += (found - found_usually_) / 240;
-  if (found_lately_ < found_usually_ / 3) search_far();
+  if (found_lately_ < found_usually_ / kMissing) search_far();
 }
 
 void AlignmentMonitor::frame_matched(const ProbedFrame& left, const ProbedFrame& right,
@@ -125,7 +128,18 @@ AlignmentFigures AlignmentMonitor::figures() {
 
   constexpr double kTogether_px = 1;  // of a part: from there on, rows may lie beyond what a near search sees
   const std::lock_guard lock(mutex_);
-  const bool together = figures.misalignment && figures.misalignment->worst_px < kTogether_px;
+  bool together = figures.misalignment && figures.misalignment->worst_px < kTogether_px;
+  // Where the true rows are out of reach, what little is found is found by chance: it can say that rows are
+  // apart, but not that they are not.
+  if (together && figures.found_share < found_together_ / kMissing) {
+    figures.misalignment.reset();
+    together = false;
+  }
+  constexpr double kSlowly = 0.05;  // a knock takes the window's few seconds to show
+  if (together) {
+    found_together_ += (figures.found_share - found_together_) * (found_together_ > 0 ? kSlowly : 1);
+  }
+  figures.usual_share = found_together_;
   if (reach_ == RowProbe::Reach::kNear) {
     if (figures.misalignment && !together) search_far();
   } else if (together && found_by_far_search >= kEnough / 2) {

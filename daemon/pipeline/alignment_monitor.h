@@ -15,6 +15,7 @@ namespace stereod {
 struct AlignmentFigures {
   std::optional<Misalignment> misalignment;  ///< nothing: too few points were found to tell
   double found_share = 1;    ///< of the points that have texture, how many were found in the other picture
+  double usual_share = 0;    ///< the same while rows were seen to lie side by side; 0: they were not yet
   std::size_t searched = 0;  ///< so many points that is
   double cost_share = 0;     ///< time spent on it since the start / time spent on matching
 };
@@ -64,6 +65,7 @@ class AlignmentMonitor {
   RowProbe::Reach reach_ = RowProbe::Reach::kNear;
   std::size_t far_since_ = 0;                        // count_ when it began to search far, the last time
   double found_lately_ = 0.5, found_usually_ = 0.5;  // share of the points searched near
+  double found_together_ = 0;  // share found while rows were seen to lie side by side; 0: not yet
   std::int64_t spent_ns_ = 0, matched_ns_ = 0;
 };
 

@@ -40,7 +40,8 @@ std::int64_t patience_for(double fps) {
 std::string KnockDetector::judge(const AlignmentFigures& figures) {
   constexpr double kApart_px = 1, kTogether_px = 0.7;
   constexpr std::size_t kEnough = 100;
-  constexpr double kHardlyAny = 0.01;
+  const double hardly_any = std::max(0.01, figures.usual_share / 8),
+               some = std::max(0.05, figures.usual_share / 3);
   constexpr const char* kRemedy =
       "; was a camera knocked? 'stereo-calibrate check' measures it, if so calibrate again";
   if (figures.misalignment) {
@@ -50,7 +51,8 @@ std::string KnockDetector::judge(const AlignmentFigures& figures) {
   // Also while too few points are found to tell: only rows that are seen to lie side by side are a reason to
   // think so.
   if (apart_) return std::string("rows of the rectified pictures do not lie side by side any more") + kRemedy;
-  if (was_found_ && figures.searched >= kEnough && figures.found_share < kHardlyAny) {
+  if (figures.searched >= kEnough) lost_ = was_found_ && figures.found_share < (lost_ ? some : hardly_any);
+  if (lost_) {
     return std::string(
                "hardly anything of the left picture is found in the right one any more; is something before "
                "a "

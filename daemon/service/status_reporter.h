@@ -28,7 +28,8 @@ struct Activity {
 };
 
 /// Says when a calibration no longer fits: rows more than a pixel apart, until they are within 0.7 px again;
-/// or hardly any point of the left picture found in the right one, after it has been otherwise.
+/// or hardly any point of the left picture found in the right one, after it has been otherwise, until some
+/// are again.
 class KnockDetector {
  public:
   /// The figures of one moment; what is wrong, as a sentence without figures, or empty.
@@ -37,6 +38,7 @@ class KnockDetector {
  private:
   bool apart_ = false;
   bool was_found_ = false;
+  bool lost_ = false;
 };
 
 ServiceState judge_state(const Activity& activity, bool calibrated);

@@ -147,6 +147,30 @@ TEST(KnockDetector, KeepsItsVerdictUntilRowsAreSeenTogether) {
   EXPECT_EQ(detector.judge(figures), "");
 }
 
+// Once hardly anything is found, a little more is not yet a reason to take it back.
+TEST(KnockDetector, MissesWhatIsGoneUntilSomeOfItIsBack) {
+  KnockDetector detector;
+  AlignmentFigures figures;
+  figures.searched = 300;
+  const auto found = [&](double share) {
+    figures.found_share = share;
+    return detector.judge(figures);
+  };
+  EXPECT_EQ(found(0.001), "") << "it has never been otherwise";
+  figures.misalignment = Misalignment{100, 0.2, 0.2, 0.3, 0};
+  EXPECT_EQ(found(0.6), "");
+  figures.misalignment.reset();
+  figures.usual_share = 0.24;
+  EXPECT_EQ(found(0.04), "");
+  EXPECT_NE(found(0.02), "");
+  EXPECT_NE(found(0.07), "");
+  figures.searched = 50;
+  EXPECT_NE(found(0.6), "") << "of too few";
+  figures.searched = 300;
+  EXPECT_EQ(found(0.2), "");
+  EXPECT_EQ(found(0.05), "");
+}
+
 fs::path datasets() {
   if (const char* set = std::getenv("STEREO_DATASETS")) return set;
   return fs::path(STEREOD_SOURCE_DIR) / ".." / "shared" / "datasets";
