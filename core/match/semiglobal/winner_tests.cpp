@@ -22,10 +22,8 @@ WinnerTests::WinnerTests(const MatcherOptions& options, const Shape& shape, cons
       index_(size(shape.grid_width() + kValueMargin)),
       sum_before_(index_.size()),
       sum_after_(index_.size()),
-      standing_(index_.size()),
-      limits_(index_.size()),
-      counts_(index_.size()),
-      claimed_(index_.size()),
+      claimed_or_count_(index_.size()),
+      standing_or_limit_(index_.size()),
       claims_(index_.size()),
       limit_of_(kMost + 1) {
   for (int least = 0; least <= kMost; ++least) {
@@ -74,7 +72,7 @@ void WinnerTests::find_winners_among(const std::uint8_t* sums, const std::uint16
   std::uint8_t* const index = index_.data();
   std::uint8_t* const sum_before = sum_before_.data();
   std::uint8_t* const sum_after = sum_after_.data();
-  std::uint16_t* const claimed = claimed_.data();
+  std::int16_t* const claimed = claimed_or_count_.data();
   std::uint16_t* const claims = claims_.data();
   std::fill_n(claims, width, std::uint16_t{0xFFFF});
   const std::uint8_t* point = sums;
@@ -96,7 +94,7 @@ void WinnerTests::find_winners_among(const std::uint8_t* sums, const std::uint16
     const int match = column - static_cast<int>(k);
     claimed[x] = 0;
     if (match < 0) continue;
-    claimed[x] = static_cast<std::uint16_t>(static_cast<unsigned>(match) >> shift);
+    claimed[x] = static_cast<std::int16_t>(match >> shift);
     std::uint16_t& standing = claims[claimed[x]];
     const auto claim = static_cast<std::uint16_t>(least << 8 | k);
     standing = claim < standing ? claim : standing;
@@ -106,9 +104,9 @@ void WinnerTests::find_winners_among(const std::uint8_t* sums, const std::uint16
 void WinnerTests::reject_contested(GridValue* out) noexcept {
   const int width = shape_.grid_width();
   const std::uint8_t* const index = index_.data();
-  const std::uint16_t* const claimed = claimed_.data();
+  const std::int16_t* const claimed = claimed_or_count_.data();
   const std::uint16_t* const claims = claims_.data();
-  std::uint8_t* const standing = standing_.data();
+  std::uint8_t* const standing = standing_or_limit_.data();
 #pragma GCC unroll 4
   for (std::ptrdiff_t x = 0; x < width; ++x) standing[x] = static_cast<std::uint8_t>(claims[claimed[x]]);
   const auto max_diff = static_cast<std::int16_t>(options_.left_right_max_diff);
@@ -123,19 +121,19 @@ void WinnerTests::reject_ambiguous(const std::uint8_t* sums, const std::uint16_t
                                    GridValue* out) noexcept {
   const int width = shape_.grid_width();
   const std::uint8_t* const limit_of = limit_of_.data();
-  std::uint8_t* const limits = limits_.data();
+  std::uint8_t* const limits = standing_or_limit_.data();
 #pragma GCC unroll 4
   for (std::ptrdiff_t x = 0; x < width; ++x) limits[x] = limit_of[winners[x] >> 8];
-  kernel_.count_at_most(shape_, sums, limits_.data(), counts_.data());
+  kernel_.count_at_most(shape_, sums, standing_or_limit_.data(), claimed_or_count_.data());
   const auto padding =
       static_cast<std::int16_t>(shape_.point_bytes() - shape_.disparities);  // all the greatest sum
   const auto last = static_cast<std::int16_t>(shape_.disparities - 1);
   for (int x = 0; x < width; x += kEight) {
-    const EightValues limit = load_eight(limits_.data() + x), k = load_eight(index_.data() + x);
+    const EightValues limit = load_eight(standing_or_limit_.data() + x), k = load_eight(index_.data() + x);
     // −1 where they are among those counted; at the ends it is one and the same.
     const EightValues before = load_eight(sum_before_.data() + x) <= limit;
     const EightValues after = (load_eight(sum_after_.data() + x) <= limit) & (k != 0) & (k != last);
-    const EightValues counted = load_eight(counts_.data() + x) - ((limit == kMost) & padding);
+    const EightValues counted = load_eight(claimed_or_count_.data() + x) - ((limit == kMost) & padding);
     store_eight(out + x, load_eight(out + x) | (counted - 1 + before + after > EightValues{}));
   }
 }
@@ -153,8 +151,8 @@ void WinnerTests::reject_masked(const std::uint8_t* left_mask, const std::uint8_
 }
 
 std::size_t WinnerTests::scratch_bytes() const noexcept {
-  return before_.size() + after_.size() + 5 * index_.size() +
-         counts_.size() * (sizeof(counts_[0]) + sizeof(claimed_[0]) + sizeof(claims_[0])) + limit_of_.size();
+  return before_.size() + after_.size() + 3 * index_.size() + standing_or_limit_.size() + limit_of_.size() +
+         claimed_or_count_.size() * (sizeof(claimed_or_count_[0]) + sizeof(claims_[0]));
 }
 
 }  // namespace stereod::semiglobal

@@ -36,12 +36,12 @@ class WinnerTests {
   const Shape& shape_;
   const Kernel& kernel_;
   std::vector<std::uint8_t> before_, after_;  // where a disparity's neighbours stand
-  // Of each point, and some more for whole vectors: the winning disparity, the sums before and after it, the
-  // disparity that stands for the right point it claims, the sum up to which others are its rivals, and how
-  // many sums are no higher.
-  std::vector<std::uint8_t> index_, sum_before_, sum_after_, standing_, limits_;
-  std::vector<std::int16_t> counts_;
-  std::vector<std::uint16_t> claimed_;  // the right point it claims
+  // Of each point, and some more for whole vectors: the winning disparity, and the sums before and after it.
+  std::vector<std::uint8_t> index_, sum_before_, sum_after_;
+  // One test after the other: the right point it claims and the disparity that stands there; then how many
+  // sums are no higher than rivals may be, and how high that is.
+  std::vector<std::int16_t> claimed_or_count_;
+  std::vector<std::uint8_t> standing_or_limit_;
   std::vector<std::uint16_t> claims_;   // best sum · 256 + disparity for right points
   std::vector<std::uint8_t> limit_of_;  // sums up to which are rivals of each least one
 };
