@@ -48,11 +48,11 @@ export LCM_DEFAULT_URL='udpm://239.255.76.67:17669?ttl=0'
 cat >"$work/stereod.yaml" <<YAML
 cameras: {source: synthetic, fps: 15}
 scan: {enabled: true}
-publish: {depth: true, cloud: true}
 lcm: {prefix: SPY, left_image: jpeg}
 YAML
 "$bin/stereod" --config "$work/stereod.yaml" 2>"$work/stereod.err" &
-children+=($!)
+stereod=$!
+children+=("$stereod")
 
 javac -cp "$classpath" -d "$work" "$examples/FrameTimes.java"
 java -Djava.net.preferIPv4Stack=true -cp "$classpath:$work" FrameTimes 5 SPY >"$work/java.out" &
@@ -89,6 +89,8 @@ if [[ -n $screenshot ]]; then
 fi
 kill "$spy"
 wait "$spy" || true
+echo 'publish: {depth: true, cloud: true}' >>"$work/stereod.yaml"
+kill -HUP "$stereod"
 "$bin/stereod-spy" SPY_FRAME SPY_SCAN SPY_CAMERA_INFO SPY_DEPTH SPY_CLOUD >"$work/fields.out" 2>&1 &
 children+=($!)
 for channel in FRAME SCAN CAMERA_INFO DEPTH CLOUD; do
