@@ -26,12 +26,6 @@ inline EightValues load_eight(const std::uint8_t* p) {
 
 inline void store_eight(std::int16_t* p, EightValues values) { std::memcpy(p, &values, sizeof(values)); }
 
-/// The low bytes.
-inline void store_eight(std::uint8_t* p, EightValues values) {
-  const EightBytes bytes = __builtin_convertvector(values, EightBytes);
-  std::memcpy(p, &bytes, sizeof(bytes));
-}
-
 /// Whether any of them is not 0.
 inline bool any_of(EightValues values) {
   std::uint64_t halves[2];

@@ -126,6 +126,22 @@ TEST(LiveView, ShowsNothingThatHasCeasedToCome) {
   EXPECT_EQ(shown(-3'000'000, INT64_MIN / 2), std::pair(false, false));
 }
 
+TEST(LiveView, IsNotConfusedByTimesThatCannotBe) {
+  LiveView view;
+  for (const std::int64_t utime : {INT64_MIN, INT64_MAX}) {
+    view.take(scan_of(-1 - utime, {1.5F}));
+    image_t left = grey_image(64, 48);
+    left.utime = -1 - utime;
+    view.take(left);
+    StereoFrame frame = frame_of(9);
+    frame.utime = utime;
+    view.take(std::move(frame), {});
+    const auto moment = view.wait_newer(0, 0ms);
+    EXPECT_FALSE(moment->scan.has_value());
+    EXPECT_TRUE(moment->left_jpeg.empty());
+  }
+}
+
 TEST(LiveView, PassesOverScansThatNoDaemonMakes) {
   const std::int64_t utime = utime_of(9);
   planar_lidar_t uneven = scan_of(utime, {1, 2});

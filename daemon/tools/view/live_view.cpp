@@ -22,7 +22,9 @@ constexpr std::int64_t kScanUs = 2'000'000;
 constexpr std::int64_t kLeftUs = 12'000'000;
 
 bool is_near(std::int64_t utime, std::int64_t other, std::int64_t us) {
-  return utime > other - us && utime < other + us;
+  std::int64_t apart = 0;
+  if (__builtin_sub_overflow(utime, other, &apart)) return false;  // whatever the network sends
+  return apart > -us && apart < us;
 }
 
 // As the daemon makes them; a page that draws anything else would be busy for long.

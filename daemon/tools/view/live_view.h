@@ -61,7 +61,7 @@ class LiveView {
 };
 
 /// A moment as the page fetches it: the length of the JSON (4 bytes, little-endian), the JSON, the
-/// disparities of every `step`-th row and column (16 bits, little-endian, −1: none) compressed by zlib, the
+/// disparities of every `step`-th row and column (packed as moment_codec.cpp says, compressed by zlib), the
 /// left image as JPEG. The JSON says how long the last two are.
 std::string encoded_moment(const Moment& moment, int step);
 
