@@ -73,6 +73,10 @@ std::optional<Board> board_in(const std::vector<PicturePair>& pictures) {
 
 PairSearch search(const PicturePair& pair, const Board& board) {
   PairSearch result;
+  if (same_pixels(pair.left, pair.right)) {
+    result.problem = "left and right are the same picture";
+    return result;
+  }
   const auto left = find_board(pair.left.view(), board, Effort::kThorough);
   const auto right = find_board(pair.right.view(), board, Effort::kThorough);
   if (left) result.corners.left = left->corners, result.left_edge_px = left->edge_width_px;

@@ -17,6 +17,7 @@
 #include "calib/live_page.h"
 #include "calib/live_state.h"
 #include "calib/solve_command.h"
+#include "daemon/config/file_error.h"
 #include "daemon/config/text_file.h"
 #include "daemon/imagefile/write_image.h"
 
@@ -130,10 +131,16 @@ int run(const Flags& flags) {
     throw UsageError("--board: say which board it is, like 9x6; 'auto' would be too slow to guide you live");
   }
   require_writable(flags.output.calibration);
+  require_distinct({flags.output.calibration, flags.output.report}, {flags.feed.config});
   if (!flags.output.report.empty()) require_writable(flags.output.report);
   if (!flags.keep.empty()) {
     std::error_code error;
     fs::create_directories(flags.keep, error);
+    if (!fs::is_empty(flags.keep, error) && !error) {
+      throw FileError(
+          flags.keep.string() +
+          ": the folder is not empty, and its pictures would be mixed with the new ones; name a new one");
+    }
     require_writable(flags.keep / "left_00.png");
   }
   const std::unique_ptr<FrameFeed> feed = open_feed(flags.feed);

@@ -70,7 +70,9 @@ double right_shift(const Calibration& c) {
 }
 
 Calibration sound_or_refused(Calibration calibration, const std::filesystem::path& file) {
-  if (const auto problem = problem_with(calibration)) throw FileError(file.string() + ": " + *problem);
+  auto problem = problem_with(calibration);
+  if (!problem) problem = problem_with_view(calibration);
+  if (problem) throw FileError(file.string() + ": " + *problem);
   calibration.id = calibration_id(calibration);
   return calibration;
 }

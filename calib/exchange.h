@@ -58,7 +58,8 @@ std::string digits(double number);
 /// baseline the one with the fewest digits, which is what another program's file had.
 double right_shift(const Calibration& calibration);
 
-/// The calibration with its id; throws FileError beginning with `file` if problem_with() finds something.
+/// The calibration with its id; throws FileError beginning with `file` if problem_with() or
+/// problem_with_view() finds something.
 Calibration sound_or_refused(Calibration calibration, const std::filesystem::path& file);
 
 }  // namespace stereod

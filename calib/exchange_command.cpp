@@ -76,6 +76,10 @@ void add_import(CLI::App& app) {
   command->add_option("-o,--output", flags->output, "the calibration, as stereod reads it")
       ->capture_default_str();
   command->callback([flags] {
+    std::vector<fs::path> read{flags->kalibr};
+    read.insert(read.end(), flags->ros.begin(), flags->ros.end());
+    read.insert(read.end(), flags->opencv.begin(), flags->opencv.end());
+    require_distinct({flags->output}, read);
     const Calibration calibration = imported(*flags);
     write_calibration(flags->output, calibration);
     std::printf("%s: images of %d×%d, focal length %.1f px, baseline %.2f mm\n", flags->output.c_str(),
@@ -94,10 +98,9 @@ void add_export(CLI::App& app) {
       ->expected(2);
   command->callback([flags] {
     if (flags->ros.empty() && flags->opencv.empty()) throw UsageError("say what to write: --ros or --opencv");
-    std::vector<fs::path> files{flags->calibration};
-    files.insert(files.end(), flags->ros.begin(), flags->ros.end());
-    files.insert(files.end(), flags->opencv.begin(), flags->opencv.end());
-    require_distinct(files);
+    std::vector<fs::path> written = flags->ros;
+    written.insert(written.end(), flags->opencv.begin(), flags->opencv.end());
+    require_distinct(written, {flags->calibration});
     const Calibration calibration = read_calibration(flags->calibration);
     if (!flags->ros.empty()) write_ros(flags->ros[0], flags->ros[1], calibration);
     if (!flags->opencv.empty()) write_opencv(flags->opencv[0], flags->opencv[1], calibration);

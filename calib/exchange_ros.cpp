@@ -42,6 +42,9 @@ RosCamera read_camera(YamlSection& root, const std::string& name, const fs::path
   const std::vector<double> p = root.required_section("projection_matrix").required_numbers("data", {12});
   result.camera.projection = {p[0], p[5], p[2], p[6]};
   result.right_shift = p[3];
+  if (const auto problem = problem_with_camera(name, result.camera)) {
+    throw FileError(file.string() + ": " + *problem);
+  }
   return result;
 }
 
@@ -85,6 +88,10 @@ std::string ros_text(const char* name, const CameraCalibration& c, double right_
 Calibration read_ros(const fs::path& left, const fs::path& right) {
   YamlSection left_root(left, load_yaml_map(left)), right_root(right, load_yaml_map(right));
   const RosCamera l = read_camera(left_root, "left", left), r = read_camera(right_root, "right", right);
+  if (l.camera.camera.image != r.camera.camera.image) {
+    throw FileError(left.string() + " and " + right.string() +
+                    ": their images differ in size; a stereo pair's are the same");
+  }
   if (l.right_shift < 0 && r.right_shift == 0) {
     throw FileError(left.string() + ": this is the right camera's file and " + right.string() +
                     " the left one's; exchange them");

@@ -34,7 +34,7 @@ PicturePair split(const fs::path& file) {
   return {file.filename().string(), part_of(both, 0, half), part_of(both, half, half)};
 }
 
-std::vector<PairFiles> files_of(const PairInput& input) {
+std::vector<PairFiles> pair_files(const PairInput& input) {
   if (!input.folder.empty()) return find_pairs(input.folder);
   if (input.left.size() != input.right.size()) {
     throw UsageError("there are " + std::to_string(input.left.size()) + " left pictures and " +
@@ -61,6 +61,8 @@ void require_size(const std::string& file, Size found, const PicturePair& first)
                   "; all pictures must have the size that the cameras will run at");
 }
 
+}  // namespace
+
 bool same_pixels(const GreyImage& a, const GreyImage& b) {
   if (a.size() != b.size()) return false;
   for (int y = 0; y < a.height(); ++y) {
@@ -69,7 +71,15 @@ bool same_pixels(const GreyImage& a, const GreyImage& b) {
   return true;
 }
 
-}  // namespace
+std::vector<fs::path> files_of(const PairInput& input) {
+  check_usage(input);
+  if (!input.side_by_side.empty()) return input.side_by_side;
+  std::vector<fs::path> files;
+  for (const PairFiles& pair : pair_files(input)) {
+    files.push_back(pair.left), files.push_back(pair.right);
+  }
+  return files;
+}
 
 std::vector<PicturePair> read_pairs(const PairInput& input) {
   check_usage(input);
@@ -82,7 +92,7 @@ std::vector<PicturePair> read_pairs(const PairInput& input) {
       progress.step();
     }
   } else {
-    const std::vector<PairFiles> files = files_of(input);
+    const std::vector<PairFiles> files = pair_files(input);
     Progress progress("reading pictures", files.size());
     for (const PairFiles& file : files) {
       pairs.push_back({file.left.filename().string() + ", " + file.right.filename().string(),

@@ -67,8 +67,12 @@ class Solver {
                        solve_pose(right, result_.board, corners.right)});
     }
     const std::vector<double> errors = disagreement_px({left, right, {}}, result_.board, posed);
+    for (std::size_t place = 0; place < good_.size(); ++place) {
+      result_.pairs[good_[place]].error_px = errors[place];
+    }
     const double limit = std::max(kOutlierFactor * median(errors), kCoarseFloorPx);
     drop(good_, errors, limit, moved_reason);
+    drop_same_left();
     require_enough();
   }
 
@@ -171,17 +175,42 @@ class Solver {
     from = std::move(kept);
   }
 
+  static bool same(const Corners& a, const Corners& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](Point2 one, Point2 other) { return one.x == other.x && one.y == other.y; });
+  }
+
   void drop_if_seen_before(std::size_t i) {
-    const Corners& own = result_.pairs[i].corners.left;
+    PairResult& own = result_.pairs[i];
     for (const std::size_t other : good_) {
-      const Corners& theirs = result_.pairs[other].corners.left;
-      const bool same = std::equal(own.begin(), own.end(), theirs.begin(), theirs.end(),
-                                   [](Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; });
-      if (same) {
-        result_.pairs[i].reason = "shows the same left picture as " + result_.pairs[other].name;
-        return;
+      const PairResult& theirs = result_.pairs[other];
+      if (!same(own.corners.left, theirs.corners.left) || !same(own.corners.right, theirs.corners.right))
+        continue;
+      own.reason = "shows the same two pictures as " + theirs.name;
+      return;
+    }
+  }
+
+  // Of several with one left picture and different right ones, the one that agrees best with the others.
+  void drop_same_left() {
+    Indices by_error = good_, kept;
+    std::stable_sort(by_error.begin(), by_error.end(), [this](std::size_t a, std::size_t b) {
+      return result_.pairs[a].error_px < result_.pairs[b].error_px;
+    });
+    for (const std::size_t i : by_error) {
+      const Corners& own = result_.pairs[i].corners.left;
+      const auto better = std::find_if(kept.begin(), kept.end(), [&](std::size_t other) {
+        return same(own, result_.pairs[other].corners.left);
+      });
+      if (better == kept.end()) {
+        kept.push_back(i);
+      } else {
+        result_.pairs[i].reason = "shows the same left picture as " + result_.pairs[*better].name +
+                                  ", which agrees better with the others";
       }
     }
+    std::sort(kept.begin(), kept.end());
+    good_ = std::move(kept);
   }
 
   // Pictures whose corners are on no plane: a bent board, or corners found wrongly.

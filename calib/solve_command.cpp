@@ -82,7 +82,7 @@ void add_solve_command(CLI::App& app, int& status) {
   command->callback([flags, &status] {
     const SolveOptions options = solve_options(flags->board);
     require_writable(flags->output.calibration);
-    if (!flags->output.report.empty()) require_distinct({flags->output.calibration, flags->output.report});
+    require_distinct({flags->output.calibration, flags->output.report}, files_of(flags->input));
     status = solve_and_write(read_pairs(flags->input), options, flags->output);
   });
 }

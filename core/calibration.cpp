@@ -1,8 +1,10 @@
 #include "core/calibration.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iomanip>
 #include <numbers>
 #include <sstream>
 
@@ -65,22 +67,6 @@ Problem problem_with_pinhole(const std::string& whose, double fx, double fy, dou
   return std::nullopt;
 }
 
-Problem problem_with_camera(const std::string& name, const CameraCalibration& c, Size image) {
-  if (Problem p = problem_with_camera(name, c.camera)) return p;
-  if (c.camera.image != image) {
-    return "the " + name + " camera's images are " + text(c.camera.image) + ", the calibration's are " +
-           text(image);
-  }
-  if (Problem p = problem_with_numbers(name, c)) return p;
-  const RectifiedProjection& p = c.projection;
-  if (Problem problem = problem_with_pinhole(name + " projection", p.fx, p.fy, p.cx, p.cy)) return problem;
-  if (!is_rotation(c.rotation)) {
-    return "the " + name +
-           " camera's rotation is not one: its rows must be orthonormal to 0.000001 and its determinant +1";
-  }
-  return std::nullopt;
-}
-
 Problem problem_with_rows(const RectifiedProjection& left, const RectifiedProjection& right) {
   constexpr double kTolerance = 1e-6;  // px
   const auto differ = [](const std::string& what, double l, double r, const std::string& so) -> Problem {
@@ -91,6 +77,23 @@ Problem problem_with_rows(const RectifiedProjection& left, const RectifiedProjec
   if (Problem p = differ("fy", left.fy, right.fy, rows)) return p;
   if (Problem p = differ("cy", left.cy, right.cy, rows)) return p;
   return differ("fx", left.fx, right.fx, "a disparity has no one depth");
+}
+
+// Share of the rectified picture's pixels that have a source in the camera's, from every so manieth of them.
+double share_seen(const CameraCalibration& c) {
+  constexpr int kSamples = 64;  // across and down
+  const Size image = c.camera.image;
+  int seen = 0;
+  for (int j = 0; j < kSamples; ++j) {
+    for (int i = 0; i < kSamples; ++i) {
+      const auto at = source_point(
+          c, {(i + 0.5) * image.width / kSamples - 0.5, (j + 0.5) * image.height / kSamples - 0.5});
+      const bool inside =
+          at && at->x >= -0.5 && at->y >= -0.5 && at->x < image.width - 0.5 && at->y < image.height - 0.5;
+      seen += inside ? 1 : 0;
+    }
+  }
+  return static_cast<double>(seen) / (kSamples * kSamples);
 }
 
 }  // namespace
@@ -127,6 +130,18 @@ std::optional<std::string> problem_with_camera(const std::string& name, const Ca
   return problem_with_pinhole(name + " camera", camera.fx, camera.fy, camera.cx, camera.cy);
 }
 
+std::optional<std::string> problem_with_camera(const std::string& name, const CameraCalibration& c) {
+  if (Problem p = problem_with_camera(name, c.camera)) return p;
+  if (Problem p = problem_with_numbers(name, c)) return p;
+  const RectifiedProjection& p = c.projection;
+  if (Problem problem = problem_with_pinhole(name + " projection", p.fx, p.fy, p.cx, p.cy)) return problem;
+  if (!is_rotation(c.rotation)) {
+    return "the " + name +
+           " camera's rotation is not one: its rows must be orthonormal to 0.000001 and its determinant +1";
+  }
+  return std::nullopt;
+}
+
 bool is_rotation(const Matrix3& r) {
   constexpr double kTolerance = 1e-6;
   const Matrix3 product = r * transposed(r);
@@ -137,6 +152,18 @@ bool is_rotation(const Matrix3& r) {
   return determinant(r) > 0;  // it is +1 or -1 here
 }
 
+std::optional<std::string> problem_with_view(const Calibration& calibration) {
+  constexpr double kLeast = 0.05;
+  const double left = share_seen(calibration.left), right = share_seen(calibration.right);
+  if (std::min(left, right) >= kLeast) return std::nullopt;
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(1) << "only " << 100 * left
+      << " % of the left rectified picture and " << 100 * right
+      << " % of the right one would have anything in them; these are the numbers of no camera: calibrate "
+         "again";
+  return out.str();
+}
+
 std::optional<std::string> problem_with(const Calibration& calibration) {
   const Size image = calibration.image;
   for (const int side : {image.width, image.height}) {
@@ -144,8 +171,15 @@ std::optional<std::string> problem_with(const Calibration& calibration) {
     return "the image size is " + text(image) + "; width and height must be 1 to " +
            std::to_string(kWidest_px);
   }
-  if (Problem p = problem_with_camera("left", calibration.left, image)) return p;
-  if (Problem p = problem_with_camera("right", calibration.right, image)) return p;
+  for (const bool is_left : {true, false}) {
+    const std::string name = is_left ? "left" : "right";
+    const CameraCalibration& c = is_left ? calibration.left : calibration.right;
+    if (Problem p = problem_with_camera(name, c)) return p;
+    if (c.camera.image != image) {
+      return "the " + name + " camera's images are " + text(c.camera.image) + ", the calibration's are " +
+             text(image);
+    }
+  }
   const CalibrationQuality& quality = calibration.quality;
   const Problem problems[] = {
       problem_with_range("the baseline", calibration.baseline_m, kShortestBaseline_m, kLongestBaseline_m,

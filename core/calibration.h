@@ -64,6 +64,11 @@ bool is_rotation(const Matrix3& matrix);
 
 /// What makes one camera unusable, as problem_with() has it; `name` is left or right.
 std::optional<std::string> problem_with_camera(const std::string& name, const CameraModel& camera);
+std::optional<std::string> problem_with_camera(const std::string& name, const CameraCalibration& camera);
+
+/// A complaint if next to nothing of what the cameras see is in the rectified pictures: numbers each of which
+/// could be, but together those of no camera. For a calibration that problem_with() finds nothing in.
+std::optional<std::string> problem_with_view(const Calibration& calibration);
 
 /// What makes `calibration` unusable, as one sentence that names the place; nothing if it is sound: every
 /// number finite and in its range, sizes equal, rotations that are rotations, projections that align rows.

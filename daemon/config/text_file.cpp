@@ -95,12 +95,18 @@ class TemporaryFile {
 
 void require_writable(const fs::path& file) { writable_target(file); }
 
-void require_distinct(const std::vector<fs::path>& files) {
-  std::set<fs::path> seen;
-  for (const fs::path& file : files) {
+void require_distinct(const std::vector<fs::path>& written, const std::vector<fs::path>& read) {
+  const auto place_of_file = [](const fs::path& file) {
     std::error_code error;
     const auto place = fs::weakly_canonical(fs::absolute(target_of(file)), error);
-    if (!seen.insert(error ? file : place).second) {
+    return error ? file : place;
+  };
+  std::set<fs::path> seen;
+  for (const fs::path& file : read) {
+    if (!file.empty()) seen.insert(place_of_file(file));
+  }
+  for (const fs::path& file : written) {
+    if (!file.empty() && !seen.insert(place_of_file(file)).second) {
       throw FileError(file.string() +
                       ": is named twice, and would be overwritten; give each file a name of its own");
     }

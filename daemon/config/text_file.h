@@ -16,8 +16,9 @@ void write_text_file(const std::filesystem::path& file, std::string_view text);
 /// a device, or a link that leads nowhere. For asking before long work.
 void require_writable(const std::filesystem::path& file);
 
-/// Throws FileError if two of the names are of one file, which would overwrite what is read or was just
-/// written.
-void require_distinct(const std::vector<std::filesystem::path>& files);
+/// Throws FileError if two names of `written` are of one file, or one is of a file of `read`, which would
+/// overwrite what is read or was just written. Empty names do not matter.
+void require_distinct(const std::vector<std::filesystem::path>& written,
+                      const std::vector<std::filesystem::path>& read = {});
 
 }  // namespace stereod

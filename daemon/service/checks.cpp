@@ -1,13 +1,9 @@
 #include "daemon/service/checks.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <cstdio>
-#include <numeric>
 #include <stdexcept>
 
 #include "core/match/isa.h"
-#include "core/rectify_map.h"
 #include "daemon/config/file_error.h"
 #include "daemon/pipeline/pipeline.h"
 #include "daemon/publish/lcm_bus.h"
@@ -41,34 +37,14 @@ void check_frame_size(const Config& config, const std::filesystem::path& file, S
   }
 }
 
-namespace {
-
-// Share of the rectified image's pixels that have a source in the camera's picture.
-double share_seen(const CameraCalibration& camera, Size image) {
-  const ValidityMask mask = RectifyMap(camera, {image, image.width, 1}).mask();
-  std::int64_t seen = 0;
-  for (int y = 0; y < image.height; ++y) seen += std::accumulate(mask.row(y), mask.row(y) + image.width, 0);
-  return static_cast<double>(seen) / (static_cast<double>(image.width) * image.height);
-}
-
-// A file may be well-formed and its numbers those of no camera.
-void check_sight(const Config& config, const std::filesystem::path& file, const Calibration& calibration) {
-  constexpr double kLeast = 0.05;
-  const double left = share_seen(calibration.left, calibration.image);
-  const double right = share_seen(calibration.right, calibration.image);
-  if (std::min(left, right) >= kLeast) return;
-  char shares[80];
-  std::snprintf(shares, sizeof shares, "%.1f %% of the left rectified picture and %.1f %% of the right one",
-                100 * left, 100 * right);
-  throw FileError(place_of(file, "calibration") + ": " + config.calibration.string() + " leaves only " +
-                  shares + " with anything in them; its numbers are those of no camera: calibrate again");
-}
-
-}  // namespace
-
 void check_calibration(const Config& config, const std::filesystem::path& file,
                        const std::optional<Calibration>& calibration) {
-  if (calibration) return check_sight(config, file, *calibration);
+  if (calibration) {
+    if (const auto problem = problem_with_view(*calibration)) {
+      throw FileError(place_of(file, "calibration") + ": " + config.calibration.string() + ": " + *problem);
+    }
+    return;
+  }
   const auto refuse = [&file](bool wanted, const char* key) {
     if (!wanted) return;
     throw FileError(

@@ -184,8 +184,9 @@ TEST(RosFiles, MistakesAreNamed) {
   EXPECT_THAT(spoiled("-0.33722", "-33.722"),
               HasSubstr("l.yaml: the left camera's distortion coefficients fold"));
   EXPECT_THAT(complaint(right, right), HasSubstr("l.yaml"));
-  EXPECT_THAT(spoiled("[0.99998", "[0.5"), HasSubstr("rotation is not one"));
-  EXPECT_THAT(spoiled("640", "320"), HasSubstr("images are"));
+  EXPECT_THAT(spoiled("[0.99998", "[0.5"), HasSubstr("l.yaml: the left camera's rotation is not one"));
+  EXPECT_THAT(spoiled("640", "320"), HasSubstr("their images differ in size"));
+  EXPECT_THAT(spoiled("321.75", "32175"), HasSubstr("0.0 % of the left rectified picture"));
   EXPECT_THAT(file_error_of([&] { read_ros(folder / "none.yaml", folder / "r.yaml"); }),
               HasSubstr("no such file"));
 }

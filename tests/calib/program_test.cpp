@@ -421,6 +421,32 @@ TEST_F(Program, ExportDoesNotOverwriteWhatItReadsOrWrote) {
   EXPECT_EQ(text_of(file("c.yaml")), before);
 }
 
+TEST_F(Program, NothingOverwritesWhatItReads) {
+  const StereoCameras k = known_cameras(kImage);
+  write_calibration(file("c.yaml"), rectified_pair(k.left, k.right, k.pose));
+  ASSERT_EQ(run({"export", file("c.yaml"), "--ros", file("l.yaml"), file("r.yaml")}).status, 0);
+  fs::copy_file(left(0), file("left_00.png")), fs::copy_file(right(0), file("right_00.png"));
+  write_text_file(file("config.yaml"), "cameras:\n  source: synthetic\n  fps: 0\n");
+  const auto refused = [&](const std::string& victim, const std::vector<std::string>& arguments) {
+    const std::string before = text_of(file(victim));
+    const ProgramRun result = run(arguments);
+    EXPECT_EQ(result.status, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(victim + ": is named twice, and would be overwritten"));
+    EXPECT_EQ(text_of(file(victim)), before);
+  };
+  refused("r.yaml", {"import", "--ros", file("l.yaml"), file("r.yaml"), "-o", file("r.yaml")});
+  refused("right_00.png", {"solve", folder_.path().string(), "--square", "25mm", "-o", file("c.yaml"),
+                           "--report", file("right_00.png")});
+  refused("left_00.png", {"solve", "--left", file("left_00.png"), "--right", file("right_00.png"), "--square",
+                          "25mm", "-o", file("left_00.png")});
+  refused("config.yaml", {"capture", "--config", file("config.yaml"), "--square", "25mm", "--port", "0", "-o",
+                          file("config.yaml")});
+  const ProgramRun mixed = run({"capture", "--config", file("config.yaml"), "--square", "25mm", "--port", "0",
+                                "--keep", folder_.path().string(), "-o", file("new.yaml")});
+  EXPECT_EQ(mixed.status, 2);
+  EXPECT_THAT(mixed.err, HasSubstr("the folder is not empty"));
+}
+
 // In these pictures the edge of the board passes for a further column of squares.
 TEST_F(Program, TheEdgeOfABoardIsNoColumn) {
   const char* set = std::getenv("STEREO_DATASETS");

@@ -1,6 +1,7 @@
 // Calibration of cameras that are known, and of real ones.
 #include "calib/solve.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,6 +49,8 @@ std::string refusal(const std::vector<PicturePair>& pictures, const SolveOptions
   }
   return "none";
 }
+
+using testing::HasSubstr;
 
 const Board kBoard{9, 6, 0.025};
 
@@ -182,7 +185,34 @@ TEST(Solve, LeavesOutBlurredAndRepeatedPictures) {
   EXPECT_TRUE(result.pairs[5].reason.starts_with("blurred: the left") ||
               result.pairs[5].reason.starts_with("no whole board found in the left"))
       << result.pairs[5].reason;
-  EXPECT_EQ(result.pairs[9].reason, "shows the same left picture as pair 8");
+  EXPECT_EQ(result.pairs[9].reason, "shows the same two pictures as pair 8");
+}
+
+TEST(Solve, OfOneLeftPictureWithSeveralRightOnesThatAgreesBestIsUsed) {
+  auto pictures = copy_of(known_pictures());
+  PicturePair wrong{"wrong", copy_of(pictures[1].left), copy_of(pictures[4].right)};
+  pictures.insert(pictures.begin(), std::move(wrong));
+  SolveResult result = solve(pictures, options_for(kBoard));
+  EXPECT_THAT(result.pairs[0].reason, HasSubstr("does not agree with the others"));
+  EXPECT_EQ(result.pairs[2].fate, PairFate::kUsed);
+  EXPECT_EQ(result.count(PairFate::kLeftOut), 1);
+
+  // The board has moved by less than is seen at first.
+  for (int y = 0; y < 480; ++y) {
+    std::copy_n(pictures[2].right.row(y), 639, pictures[0].right.row(y) + 1);
+  }
+  result = solve(pictures, options_for(kBoard));
+  EXPECT_EQ(result.pairs[0].reason,
+            "shows the same left picture as pair 1, which agrees better with the others");
+  EXPECT_EQ(result.pairs[2].fate, PairFate::kUsed);
+}
+
+TEST(Solve, LeavesOutAPictureThatIsGivenAsLeftAndAsRight) {
+  auto pictures = copy_of(known_pictures());
+  pictures[2].right = copy_of(pictures[2].left);
+  EXPECT_EQ(solve(pictures, options_for(kBoard)).pairs[2].reason, "left and right are the same picture");
+  for (std::size_t i = 3; i < pictures.size(); ++i) pictures[i].right = copy_of(pictures[i].left);
+  EXPECT_THAT(refusal(pictures, options_for(kBoard)), HasSubstr("left and right are the same picture"));
 }
 
 TEST(Solve, SaysThatLeftAndRightAreSwapped) {

@@ -363,7 +363,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadStart{"CalibrationOfNoCamera",
                  "cameras: {source: synthetic, synthetic: {width: 320, height: 240}}\ncalibration: "
                  "elsewhere.yaml\n",
-                 "leaves only 0.0 % of the left rectified picture"},
+                 "only 0.0 % of the left rectified picture"},
         BadStart{"MissingCalibration", "cameras: {source: synthetic}\ncalibration: gone.yaml\n", "gone.yaml"},
         BadStart{"ImpossibleIsa",
                  "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nmatcher: {isa: " +
