@@ -231,7 +231,7 @@ std::vector<double> distortion_of(const CameraModel& camera) {
   if (camera.lens == LensModel::kFisheye) return all;
   std::size_t used = all.size();
   while (used > 0 && all[used - 1] == 0) --used;
-  for (const std::size_t count : {5, 8, 12, 14}) {
+  for (const std::size_t count : {5U, 8U, 12U, 14U}) {
     if (used <= count) return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)};
   }
   return all;

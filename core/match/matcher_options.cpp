@@ -108,7 +108,9 @@ std::optional<std::string> problem_with_method(const MatcherOptions& o) {
            remedy;
   };
   if (o.method == Method::kBlock) {
-    if (o.fill) return only("fill", "true", "only method: semiglobal fills, so set fill: false");
+    if (o.fill)
+      return only("fill", "true",
+                  "only method: semiglobal fills, so do without it (fill: false, or --no-fill)");
     return std::nullopt;
   }
   if (o.cost != Cost::kSad) {

@@ -19,10 +19,11 @@ struct Flags {
   std::optional<std::string> output, color, calibration, config, ground_truth;
   std::vector<std::string> rectified;
   std::optional<std::string> preset, method, grid, implementation, isa, cost;
-  std::optional<int> disparities, min_disparity, window, p1, p2, threads, repeat;
+  std::optional<int> disparities, min_disparity, window, p1, p2, census_weight, gradient_limit, threads,
+      repeat;
   std::optional<std::string> interpolation;
   std::optional<double> gt_scale, zoom;
-  bool fill = false;
+  bool fill = false, no_fill = false;
 };
 
 void declare(CLI::App& app, Flags& flags) {
@@ -40,7 +41,14 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--grid", flags.grid, "semiglobal: coarse, or fine for thin things");
   app.add_option("--p1", flags.p1, "semiglobal: what a step of one disparity costs, 0 to 255");
   app.add_option("--p2", flags.p2, "semiglobal: what a larger step costs at most, 0 to 255");
-  app.add_flag("--fill", flags.fill, "semiglobal: pixels without a match get that of a neighbour");
+  app.add_option("--census-weight", flags.census_weight,
+                 "semiglobal: what each census bit that differs costs, 0 to 16");
+  app.add_option("--gradient-limit", flags.gradient_limit,
+                 "semiglobal: what differing gradients cost at most, 0 to 64");
+  app.add_flag("--fill", flags.fill,
+               "semiglobal: pixels without a match get that of a neighbour, in pictures and files too");
+  app.add_flag("--no-fill", flags.no_fill, "semiglobal: they do not, whatever the preset says")
+      ->excludes("--fill");
   app.add_option("--cost", flags.cost, "sad, ssd or mad (the last two: only --implementation naive)");
   app.add_option("--implementation", flags.implementation, "naive, sliding or simd");
   app.add_option("--isa", flags.isa, "instruction set for simd: auto, scalar, ssse3, sse41, avx2 or neon");
@@ -78,12 +86,16 @@ void apply_method(const Flags& flags, MatcherOptions& options) {
   refuse(flags.grid.has_value(), "--grid", Method::kSemiglobal);
   refuse(flags.p1.has_value(), "--p1", Method::kSemiglobal);
   refuse(flags.p2.has_value(), "--p2", Method::kSemiglobal);
+  refuse(flags.census_weight.has_value(), "--census-weight", Method::kSemiglobal);
+  refuse(flags.gradient_limit.has_value(), "--gradient-limit", Method::kSemiglobal);
   refuse(flags.fill, "--fill", Method::kSemiglobal);
   options.window = flags.window.value_or(options.window);
   if (flags.grid) options.grid = named(parse_grid(*flags.grid), *flags.grid, "--grid", "coarse, fine");
   options.p1 = flags.p1.value_or(options.p1);
   options.p2 = flags.p2.value_or(options.p2);
-  options.fill = options.fill || flags.fill;
+  options.census_weight = flags.census_weight.value_or(options.census_weight);
+  options.gradient_limit = flags.gradient_limit.value_or(options.gradient_limit);
+  options.fill = (options.fill || flags.fill) && !flags.no_fill;
 }
 
 MatcherOptions matcher_options(const Flags& flags, const Config& config) {

@@ -33,6 +33,15 @@ std::string evaluation_table(const Evaluation& evaluation, const std::string& fi
   return table;
 }
 
+std::string filled_line(long measured, long filled, long all) {
+  const double share = all > 0 ? 100.0 / static_cast<double>(all) : 0;
+  return formatted(
+      "measured: %.1f %% of the pixels; filled in from neighbours: %.1f %%, which the files do not tell "
+      "apart "
+      "(--no-fill leaves them empty)\n",
+      share * static_cast<double>(measured), share * static_cast<double>(filled));
+}
+
 std::string timing_line(std::vector<double> times_ms) {
   std::sort(times_ms.begin(), times_ms.end());
   const std::size_t middle = times_ms.size() / 2;

@@ -91,14 +91,29 @@ void write_view(const MatchArguments& arguments, const DisparityImage& disparity
   write_png(*arguments.color, picture.view());
 }
 
-/// Who asks for filled pixels wants them in the files, which have no mark for them.
-void take_filled_for_measured(DisparityImage& disparity) {
+/// Who asks for filled pixels wants them in the files, which have no mark for them: so a line says how
+/// many they are.
+std::string take_filled_too(DisparityImage& disparity) {
+  long measured = 0, filled = 0;
   for (int y = 0; y < disparity.height(); ++y) {
     for (int x = 0; x < disparity.width(); ++x) {
       std::int16_t& value = disparity.at(x, y);
-      if (is_filled(value)) value = filled_disparity(value);
+      if (is_filled(value)) {
+        value = filled_disparity(value), ++filled;
+      } else if (value >= 0) {
+        ++measured;
+      }
     }
   }
+  return filled_line(measured, filled, static_cast<long>(disparity.width()) * disparity.height());
+}
+
+void print_comparison(const MatchArguments& arguments, const DisparityImage& disparity,
+                      const Image<float>& truth, const std::string& title) {
+  const double grey_per_px = 255.0 / (arguments.matcher.min_disparity + arguments.matcher.disparities);
+  const Evaluation evaluation =
+      evaluate(disparity.view(), arguments.matcher.units_per_pixel(), truth.view(), grey_per_px);
+  std::fputs(evaluation_table(evaluation, title, grey_per_px).c_str(), stdout);
 }
 
 void run(const MatchArguments& arguments) {
@@ -118,7 +133,13 @@ void run(const MatchArguments& arguments) {
   DisparityImage disparity(pair.left.image.size());
   matcher.match(pair.left.image.view(), pair.right.image.view(), disparity.view());
 
-  if (arguments.matcher.fill) take_filled_for_measured(disparity);
+  if (arguments.matcher.fill) {
+    // A filled pixel is below 0 until it is taken for more, so it counts as unmatched here.
+    if (truth)
+      print_comparison(arguments, disparity, *truth, arguments.ground_truth->string() + ", measured alone");
+    const std::string line = take_filled_too(disparity);
+    if (arguments.output || arguments.color) std::fputs(line.c_str(), stdout);
+  }
   const int units = arguments.matcher.units_per_pixel();
   if (arguments.output) write_disparity(*arguments.output, disparity.view(), units);
   if (arguments.color) write_view(arguments, disparity, calibration);
@@ -127,9 +148,9 @@ void run(const MatchArguments& arguments) {
     write_png(arguments.rectified->right, pair.right.image.view());
   }
   if (truth) {
-    const double grey_per_px = 255.0 / (arguments.matcher.min_disparity + arguments.matcher.disparities);
-    const Evaluation evaluation = evaluate(disparity.view(), units, truth->view(), grey_per_px);
-    std::fputs(evaluation_table(evaluation, arguments.ground_truth->string(), grey_per_px).c_str(), stdout);
+    print_comparison(
+        arguments, disparity, *truth,
+        arguments.ground_truth->string() + (arguments.matcher.fill ? ", with what is filled" : ""));
   }
   if (arguments.repeat > 0) {
     // The run above has touched all memory, so that the first measured one does not pay for it.

@@ -23,7 +23,8 @@ namespace stereod::bench {
 namespace {
 
 std::vector<QualityMatcher> contestants() {
-  return {opencv_bm(), opencv_sgbm_3way(), own_matcher("fast", matcher_preset("fast").value()),
+  return {padded(opencv_bm()), padded(opencv_sgbm_3way(10)),
+          own_matcher("fast", matcher_preset("fast").value()),
           own_matcher("dense", matcher_preset("dense").value()),
           own_matcher("robust", matcher_preset("robust").value())};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <opencv2/calib3d.hpp>
+#include <utility>
 
 #include "core/match/frame_matcher.h"
 #include "tests/bench/bench_images.h"
@@ -78,25 +79,64 @@ QualityMatcher opencv_sgbm_3way() {
           }};
 }
 
-QualityMatcher opencv_sgbm_padded(int uniqueness_ratio) {
+QualityMatcher opencv_sgbm_3way(int uniqueness_ratio) {
   constexpr int kBlock = 5, kCap = 31;
   return {"SGBM 3WAY u" + std::to_string(uniqueness_ratio),
           "OpenCV StereoSGBM 3WAY, block 5, P1 200, P2 800, cap 31, uniqueness " +
-              std::to_string(uniqueness_ratio) + ", padded at the left",
+              std::to_string(uniqueness_ratio),
           kSubpixelUnits, [=](const StereoSet& set, int disparities) {
-            const cv::Ptr<cv::StereoSGBM> sgbm =
-                cv::StereoSGBM::create(0, disparities, kBlock, 8 * kBlock * kBlock, 32 * kBlock * kBlock, 0,
-                                       kCap, uniqueness_ratio, 0, 0, cv::StereoSGBM::MODE_SGBM_3WAY);
-            StereoSet padded{set.name, {}, {}, {}, disparities};
-            cv::copyMakeBorder(set.left, padded.left, 0, 0, disparities, 0, cv::BORDER_REPLICATE);
-            cv::copyMakeBorder(set.right, padded.right, 0, 0, disparities, 0, cv::BORDER_REPLICATE);
-            const DisparityImage wide = compute(*sgbm, padded);
-            DisparityImage found(view_of(set.left).size());
-            for (int y = 0; y < found.height(); ++y) {
-              std::copy_n(wide.row(y) + disparities, found.width(), found.row(y));
-            }
-            return found;
+            return compute(
+                *cv::StereoSGBM::create(0, disparities, kBlock, 8 * kBlock * kBlock, 32 * kBlock * kBlock, 0,
+                                        kCap, uniqueness_ratio, 0, 0, cv::StereoSGBM::MODE_SGBM_3WAY),
+                set);
           }};
+}
+
+QualityMatcher padded(QualityMatcher matcher) {
+  matcher.settings += ", padded at the left";
+  matcher.match = [match = std::move(matcher.match)](const StereoSet& set, int disparities) {
+    StereoSet wider{set.name, {}, {}, {}, disparities};
+    cv::copyMakeBorder(set.left, wider.left, 0, 0, disparities, 0, cv::BORDER_REPLICATE);
+    cv::copyMakeBorder(set.right, wider.right, 0, 0, disparities, 0, cv::BORDER_REPLICATE);
+    const DisparityImage wide = match(wider, disparities);
+    DisparityImage found(view_of(set.left).size());
+    for (int y = 0; y < found.height(); ++y) {
+      std::copy_n(wide.row(y) + disparities, found.width(), found.row(y));
+    }
+    return found;
+  };
+  return matcher;
+}
+
+QualityMatcher as_dense_as(QualityMatcher reference, QualityMatcher sparse, QualityMatcher dense) {
+  const std::string name = sparse.name + " at its density";
+  const std::string settings = sparse.name + ", and of the other pixels of " + dense.name +
+                               " so many that as many are matched as by " + reference.name;
+  const int units = sparse.units_per_pixel;
+  const auto match = [=](const StereoSet& set, int disparities) {
+    const auto matched = [&](const DisparityImage& image) {
+      long count = 0;
+      for (int y = 0; y < image.height(); ++y) {
+        count += std::count_if(image.row(y), image.row(y) + image.width(),
+                               [](std::int16_t value) { return value >= 0; });
+      }
+      return count;
+    };
+    DisparityImage found = sparse.match(set, disparities);
+    const DisparityImage more = dense.match(set, disparities);
+    const long has = matched(found), wanted = matched(reference.match(set, disparities));
+    const long others = matched(more) - has, needed = std::clamp(wanted - has, 0L, std::max(others, 0L));
+    long due = 0;  // needed / others of a pixel with each one passed
+    for (int y = 0; y < found.height(); ++y) {
+      for (int x = 0; x < found.width(); ++x) {
+        if (found.at(x, y) >= 0 || more.at(x, y) < 0) continue;
+        due += needed;
+        if (due >= others) due -= others, found.at(x, y) = more.at(x, y);
+      }
+    }
+    return found;
+  };
+  return {name, settings, units, match};
 }
 
 QualityMatcher own_matcher(const std::string& name, const MatcherOptions& options) {

@@ -25,9 +25,16 @@ QualityMatcher opencv_bm_without_tests();
 /// StereoSGBM in its 3WAY mode, 5×5.
 QualityMatcher opencv_sgbm_3way();
 
-/// StereoSGBM 3WAY with a prefilter cap of 31 and pictures that are wider at the left by the disparities
-/// searched, so that it can answer in every column.
-QualityMatcher opencv_sgbm_padded(int uniqueness_ratio);
+/// StereoSGBM 3WAY, 5×5, with a prefilter cap of 31.
+QualityMatcher opencv_sgbm_3way(int uniqueness_ratio);
+
+/// The same matcher given pictures that are wider at the left by the disparities searched, so that OpenCV can
+/// answer in every column.
+QualityMatcher padded(QualityMatcher matcher);
+
+/// `sparse`, with as many pixels more that only `dense` has, evenly spread over those, as `reference`
+/// matches. All have one number of units a pixel.
+QualityMatcher as_dense_as(QualityMatcher reference, QualityMatcher sparse, QualityMatcher dense);
 
 /// Filled pixels count as matched: who sets `fill` asks for them.
 QualityMatcher own_matcher(const std::string& name, const MatcherOptions& options);

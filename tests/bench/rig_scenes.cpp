@@ -76,7 +76,7 @@ cv::Mat row_of(const Calibration& calibration, const std::filesystem::path& fold
   const View right = rectified(calibration.right, folder / ("right_" + scene + ".png"));
   const StereoSet set{scene, left.picture, right.picture, {}, kDisparities};
   std::vector<std::pair<std::string, DisparityImage>> answers;
-  for (const QualityMatcher& matcher : {opencv_bm(), opencv_sgbm_padded(10)}) {
+  for (const QualityMatcher& matcher : {opencv_bm(), padded(opencv_sgbm_3way(10))}) {
     answers.emplace_back(matcher.name, matcher.match(set, kDisparities));
   }
   for (const char* name : {"dense", "robust", "fine"}) {

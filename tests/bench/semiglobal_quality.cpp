@@ -39,8 +39,17 @@ QualityMatcher filled_fine() {
 }
 
 std::vector<QualityMatcher> matchers() {
-  return {opencv_bm_without_tests(), opencv_sgbm_padded(0), opencv_sgbm_padded(10), preset("dense", 40),
-          preset("dense", 56),       filled_fine(),         preset("robust", 40),   preset("fine", 40)};
+  const QualityMatcher sgbm10 = padded(opencv_sgbm_3way(10)), dense = preset("dense", 40),
+                       robust = preset("robust", 40);
+  return {padded(opencv_bm_without_tests()),
+          padded(opencv_sgbm_3way(0)),
+          sgbm10,
+          dense,
+          preset("dense", 56),
+          filled_fine(),
+          robust,
+          as_dense_as(sgbm10, robust, dense),
+          preset("fine", 40)};
 }
 
 // --- disturbances

@@ -140,6 +140,34 @@ TEST_F(StereoMatch, ComparesWithGroundTruth) {
   EXPECT_TRUE(contains(run.out, "mean absolute error +0[.][0-9][0-9][0-9] px")) << run.out;
 }
 
+// Which are which is not in the files, so it is said; and what is judged is judged both ways.
+TEST_F(StereoMatch, SaysHowManyPixelsAreFilledInAndHowGoodTheOthersAre) {
+  const std::vector<std::string> common{"--preset", "dense",       "--disparities",  "16",
+                                        "-o",       file("o.pfm"), "--ground-truth", file("left.png")};
+  const ProgramRun filled = match_pair(common);
+  expect_good(filled);
+  EXPECT_TRUE(contains(filled.out, "left.png, measured alone\n")) << filled.out;
+  EXPECT_TRUE(contains(filled.out, "left.png, with what is filled\n")) << filled.out;
+  EXPECT_TRUE(contains(filled.out, "measured: [0-9.]+ % of the pixels; filled in from neighbours: [0-9.]+ %"))
+      << filled.out;
+  const auto answered = [this] {
+    const Image<float> pixels = read_pfm(directory_ / "o.pfm");
+    long count = 0;
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) count += std::isfinite(pixels.at(x, y)) ? 1 : 0;
+    }
+    return count;
+  };
+  const long all = answered();
+  EXPECT_EQ(all, static_cast<long>(kSize.width) * kSize.height);
+  std::vector<std::string> without = common;
+  without.emplace_back("--no-fill");
+  const ProgramRun sparse = match_pair(without);
+  expect_good(sparse);
+  EXPECT_FALSE(contains(sparse.out, "filled")) << sparse.out;
+  EXPECT_LT(answered(), all);
+}
+
 TEST_F(StereoMatch, ScaleOfTheGroundTruthMatters) {
   const ProgramRun run =
       match_pair({"--disparities", "16", "--ground-truth", file("truth.png"), "--gt-scale", "8"});
@@ -275,6 +303,11 @@ TEST_F(StereoMatch, RefusesImpossibleMatcherSettings) {
   refused({"--window", "9"}, {"--window", "--method block", "semiglobal"});
   refused({"--preset", "fast", "--p2", "9"}, {"--p2", "--method semiglobal", "block"});
   refused({"--preset", "fast", "--fill"}, {"--fill", "--method semiglobal"});
+  refused({"--preset", "fast", "--census-weight", "3"}, {"--census-weight", "--method semiglobal"});
+  refused({"--census-weight", "17"}, {"census_weight is 17", "0 to 16"});
+  refused({"--gradient-limit", "65"}, {"gradient_limit is 65", "0 to 64"});
+  refused({"--preset", "dense", "--method", "block"}, {"fill", "--no-fill"});
+  refused({"--fill", "--no-fill"}, {"--fill excludes --no-fill"});
   refused({"--method", "census"}, {"--method: 'census'", "block, semiglobal"});
 }
 

@@ -89,13 +89,18 @@ TEST_P(StereodRows, ArriveInAnotherProcessAsStereoMatchMakesThem) {
     expected.emplace(i, matched_by_tool(directory_.path(), i, GetParam().options));
 
   int frames = 0;
+  long filled = 0;
   FrameAssembler assembler([&](StereoFrame&& frame) {
     ASSERT_TRUE(frame.complete()) << "frame " << frame.frame;
     ++frames;
     const Image<float>& want = expected.at(frame.summary->left_sequence % kPairs);
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {
-        const int units = frame.disparity.at(x, y);
+        int units = frame.disparity.at(x, y);
+        if (frame.filled.width() > 0 && frame.filled.at(x, y) != DisparityMap::kNone) {
+          ASSERT_EQ(units, DisparityMap::kNone) << "measured and filled";
+          units = frame.filled.at(x, y), ++filled;
+        }
         const float got = units == DisparityMap::kNone
                               ? INFINITY
                               : static_cast<float>(units) / static_cast<float>(frame.units_per_pixel);
@@ -121,6 +126,7 @@ TEST_P(StereodRows, ArriveInAnotherProcessAsStereoMatchMakesThem) {
   EXPECT_NE(run.err.find("matcher " + method + " simd"), std::string::npos) << run.err;
   EXPECT_EQ(run.out, "");
   EXPECT_GE(frames, 3 * kPairs) << run.err;
+  EXPECT_EQ(filled > 0, GetParam().name == std::string("dense"));
   EXPECT_EQ(assembler.counts().rows_lost, 0);
   EXPECT_EQ(assembler.counts().messages_ignored, 0);
 }
@@ -130,6 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Setting{"thesis", "{preset: thesis, disparities: 48}", {"--preset", "thesis", "--disparities", "48"}},
         Setting{"robust", "{preset: robust, disparities: 64}", {"--preset", "robust"}},
+        Setting{"dense", "{preset: dense, disparities: 64}", {"--preset", "dense"}},
         Setting{"fine", "{preset: fine, disparities: 50}", {"--preset", "fine", "--disparities", "50"}}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
