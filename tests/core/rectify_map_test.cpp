@@ -212,7 +212,7 @@ TEST(RectifyMap, EveryInstructionSetBlendsAlike) {
   std::vector<std::uint8_t> across(kMost), down(kMost);
   for (int i = 0; i < kMost; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    across[at] = static_cast<std::uint8_t>(i < 33 ? 4 * i : 4 * (random() % 33));
+    across[at] = static_cast<std::uint8_t>(4 * (i < 33 ? static_cast<unsigned>(i) : random() % 33));
     down[at] = static_cast<std::uint8_t>(i < 33 ? 32 : random() % 33);
     if (i % 7 == 0) bytes[at] = 255, bytes[at + kMost] = 0;
     if (i % 5 == 0) bytes[at + 2 * kMost] = 0, bytes[at + 3 * kMost] = 255;

@@ -50,7 +50,7 @@ void run(const std::uint8_t* data, std::size_t size) {
   client->on_rows([](const RowBlock& block) { read(block); });
   while (size >= 3) {
     const int channel = data[0] % 3;
-    const std::size_t length = std::min<std::size_t>(size - 3, data[1] | data[2] << 8);
+    const std::size_t length = std::min(size - 3, std::size_t{data[1]} + 256 * std::size_t{data[2]});
     // A copy of its own, so that a read past its end is seen.
     const std::vector<std::uint8_t> message(data + 3, data + 3 + length);
     if (channel == 0) client->take_rows(message.data(), message.size());
