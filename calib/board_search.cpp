@@ -35,14 +35,20 @@ std::vector<std::size_t> sampled(const std::vector<PicturePair>& pictures) {
   return evenly_spread(std::min(kSamples, pictures.size()), pictures.size());
 }
 
-// Whether the whole board is found in any of the sampled pictures.
-bool is_seen(const std::vector<PicturePair>& pictures, const Board& board) {
+// In how many of the sampled pictures the whole board is found.
+int times_seen(const std::vector<PicturePair>& pictures, const Board& board) {
   const auto places = sampled(pictures);
-  return std::any_of(places.begin(), places.end(), [&](std::size_t place) {
-    return find_board(pictures[place].left.view(), board, Effort::kThorough) ||
-           find_board(pictures[place].right.view(), board, Effort::kThorough);
+  std::atomic<int> seen{0};
+  in_parallel(2 * places.size(), [&](std::size_t i) {
+    const PicturePair& pair = pictures[places[i / 2]];
+    if (find_board((i % 2 == 0 ? pair.left : pair.right).view(), board, Effort::kThorough)) ++seen;
   });
+  return seen;
 }
+
+// Seen in fewer of the pictures that show a board, it is not their board: its edge may pass for a further
+// column, and in a blurred picture anything for a small board.
+constexpr int kOneInSoMany = 3;
 
 // The board that the sampled pictures show, if any.
 std::optional<Board> board_in(const std::vector<PicturePair>& pictures) {
@@ -57,16 +63,18 @@ std::optional<Board> board_in(const std::vector<PicturePair>& pictures) {
     if (found) ++votes[{found->columns, found->rows}];
     progress.step();
   });
-  // The largest one seen more than once, for often only a part of a board is found; but the edge of a board
-  // may pass for a further column, so it counts only if it is found when it is looked for.
+  // The largest one, for often only a part of a board is found, that is found often enough when it is looked
+  // for.
   std::vector<std::pair<std::pair<int, int>, int>> candidates(votes.begin(), votes.end());
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
     return std::pair(a.second > 1, a.first.first * a.first.second) >
            std::pair(b.second > 1, b.first.first * b.first.second);
   });
+  int showing = 0;
+  for (const auto& [size, count] : candidates) showing += count;
   for (const auto& [size, count] : candidates) {
     const Board board{size.first, size.second, 0};
-    if (is_seen(pictures, board)) return board;
+    if (kOneInSoMany * times_seen(pictures, board) >= showing) return board;
   }
   return std::nullopt;
 }
@@ -99,12 +107,17 @@ bool same_size(const Board& a, const Board& b) {
   return std::minmax(a.columns, a.rows) == std::minmax(b.columns, b.rows);
 }
 
-// Before the long search: is it this board? One that is larger is found as well, less its edge; one that
-// seems smaller may be partly hidden in just these pictures.
+// Before the long search: is it this board? It is also found where the pictures show a larger one, less its
+// edge, and so, about as often as that; where they seem to show a smaller one, it may be partly hidden in
+// just these.
 void require_size(const std::vector<PicturePair>& pictures, const Board& board) {
   const auto there = board_in(pictures);
   if (!there || same_size(*there, board)) return;
-  if (there->columns * there->rows <= board.columns * board.rows && is_seen(pictures, board)) return;
+  const int this_one = times_seen(pictures, board), other = times_seen(pictures, *there);
+  const bool is_larger = there->columns * there->rows > board.columns * board.rows;
+  if (is_larger ? this_one > 2 * other : this_one > 0) return;
+  // Of as many pictures twice; seen in fewer, it says little against what a person said.
+  if (other < static_cast<int>(sampled(pictures).size())) return;
   throw CalibrationError("the pictures show a board of " + in_words(*there) + ", not " + in_words(board) +
                          "; say --board " + std::to_string(there->columns) + "x" +
                          std::to_string(there->rows) + " (inner corners are those where four squares meet)");
@@ -136,8 +149,8 @@ std::vector<PairSearch> search_boards(const std::vector<PicturePair>& pictures, 
   });
   if (!found) {
     throw CalibrationError("no board with " + in_words(board) +
-                           " was found in any picture, nor one of another size; the whole board with its "
-                           "white border must be seen, flat, sharp and evenly lit");
+                           " was found in any picture; the whole board with its white border must be seen, "
+                           "flat, sharp and evenly lit");
   }
   return results;
 }

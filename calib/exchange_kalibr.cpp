@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -46,8 +47,20 @@ StereoPose read_pose(const YAML::Node& root, const std::filesystem::path& file) 
       t[row] = rows[row][3].as<double>();
     }
     pose.translation_m = {t[0], t[1], t[2]};
+    const double last[4] = {0, 0, 0, 1};
+    for (std::size_t column = 0; column < 4; ++column) {
+      if (rows[3].size() != 4 || rows[3][column].as<double>() != last[column]) {
+        throw FileError(file.string() + ": cam1.T_cn_cnm1: its last row must be 0, 0, 0, 1");
+      }
+    }
   } catch (const YAML::Exception&) {
     throw FileError(file.string() + ": cam1.T_cn_cnm1: four rows of four numbers are needed");
+  }
+  const auto finite = [](double number) { return std::isfinite(number); };
+  const Vector3& t = pose.translation_m;
+  if (!std::all_of(pose.rotation.m.begin(), pose.rotation.m.end(), finite) || !finite(t.x) || !finite(t.y) ||
+      !finite(t.z)) {
+    throw FileError(file.string() + ": cam1.T_cn_cnm1: allowed are finite numbers");
   }
   pose.rotation = exact_rotation(pose.rotation);
   if (!is_rotation(pose.rotation)) {

@@ -94,6 +94,7 @@ class Solver {
       good_.erase(good_.begin() + place);
     }
     for (const std::size_t i : good_) result_.pairs[i].fate = PairFate::kUsed;
+    require_two_places();
     result_.calibration = rectified(cameras_);
     result_.calibration.quality.pairs_used = static_cast<int>(good_.size());
     result_.calibration.quality.rms_px = rms_px_;
@@ -248,6 +249,17 @@ class Solver {
       break;
     }
     throw CalibrationError(sentence);
+  }
+
+  void require_two_places() const {
+    const Vector3& t = cameras_.pose.translation_m;
+    const double apart_m = std::hypot(t.x, t.y, t.z);
+    if (apart_m > result_.board.square_m / 10) return;
+    char millimetres[32];
+    std::snprintf(millimetres, sizeof millimetres, "%.2f", 1000 * apart_m);
+    throw CalibrationError(
+        "left and right are pictures of one camera: they were taken " + std::string(millimetres) +
+        " mm apart; give the left camera's pictures as left and the right camera's as right");
   }
 
   CameraSolution solve_side(const Indices& pairs, bool left) const {

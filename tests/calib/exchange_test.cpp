@@ -238,6 +238,9 @@ TEST(KalibrFiles, MistakesAreNamed) {
   EXPECT_THAT(spoiled("T_cn_cnm1", "T_x"), HasSubstr("cam1.T_cn_cnm1: four rows of four numbers"));
   EXPECT_THAT(spoiled("  - [0.99999", "  - [0.49999"), HasSubstr("no rotation"));
   EXPECT_THAT(spoiled("-0.110073808127187", "0.110073808127187"), HasSubstr("left and right are swapped"));
+  EXPECT_THAT(spoiled("0.000399121547014", ".nan"), HasSubstr("cam1.T_cn_cnm1: allowed are finite numbers"));
+  EXPECT_THAT(spoiled("0.002312067192424", "-.inf"), HasSubstr("cam1.T_cn_cnm1: allowed are finite numbers"));
+  EXPECT_THAT(spoiled("0.0, 1.0]", "0.0, 2.0]"), HasSubstr("its last row must be 0, 0, 0, 1"));
   EXPECT_THAT(spoiled("-0.110073808127187", "far"), HasSubstr("cam1.T_cn_cnm1"));
   EXPECT_THAT(spoiled("[752, 480]", "[640, 480]"), HasSubstr("different resolutions"));
   EXPECT_THAT(spoiled("cam1:", "cam2:"), HasSubstr("cam1: is missing"));

@@ -49,6 +49,11 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
+fs::path datasets() {
+  const char* set = std::getenv("STEREO_DATASETS");
+  return set != nullptr ? fs::path(set) : fs::path(STEREOD_SOURCE_DIR) / ".." / "shared" / "datasets";
+}
+
 // A folder with rendered pairs of known cameras, made once.
 class Program : public testing::Test {
  public:
@@ -449,10 +454,7 @@ TEST_F(Program, NothingOverwritesWhatItReads) {
 
 // In these pictures the edge of the board passes for a further column of squares.
 TEST_F(Program, TheEdgeOfABoardIsNoColumn) {
-  const char* set = std::getenv("STEREO_DATASETS");
-  const fs::path datasets =
-      set != nullptr ? fs::path(set) : fs::path(STEREOD_SOURCE_DIR) / ".." / "shared" / "datasets";
-  const fs::path pictures = datasets / "rig_stereopi" / "calib";
+  const fs::path pictures = datasets() / "rig_stereopi" / "calib";
   if (!fs::exists(pictures)) GTEST_SKIP() << pictures << " is not here";
   std::vector<std::string> arguments{"solve", "--square", "25mm", "-o", file("c.yaml"), "--left"};
   const std::vector<std::string> numbers{"09", "13", "16", "17", "18"};
@@ -465,6 +467,27 @@ TEST_F(Program, TheEdgeOfABoardIsNoColumn) {
     const ProgramRun result = run(with_board);
     EXPECT_THAT(result.out, HasSubstr("9×6")) << board << ": " << result.err;
     EXPECT_NE(result.status, 2) << board << ": " << result.err;
+  }
+}
+
+// One of them would pass for a larger board, and is there twice.
+TEST_F(Program, APictureGivenTwiceDecidesNothing) {
+  const fs::path pictures = datasets() / "calib_sourishg_webcams" / "calib";
+  if (!fs::exists(pictures)) GTEST_SKIP() << pictures << " is not here";
+  std::vector<std::string> arguments{"solve", "--square", "25mm", "-o", file("c.yaml")};
+  for (const char* side : {"left", "right"}) {
+    arguments.push_back(std::string("--") + side);
+    for (const char* number : {"24", "24", "03", "07", "11", "15", "19"}) {
+      arguments.push_back((pictures / (std::string(side) + "_" + number + ".jpg")).string());
+    }
+  }
+  for (const char* board : {"9x6", "auto"}) {
+    std::vector<std::string> with_board = arguments;
+    with_board.insert(with_board.end(), {"--board", board});
+    const ProgramRun result = run(with_board);
+    EXPECT_THAT(result.out, HasSubstr("9×6")) << board << ": " << result.err;
+    EXPECT_THAT(result.out, HasSubstr("shows the same two pictures as left_24.jpg"))
+        << board << ": " << result.err;
   }
 }
 

@@ -215,6 +215,19 @@ TEST(Solve, LeavesOutAPictureThatIsGivenAsLeftAndAsRight) {
   EXPECT_THAT(refusal(pictures, options_for(kBoard)), HasSubstr("left and right are the same picture"));
 }
 
+TEST(Solve, SaysThatBothPicturesAreOfOneCamera) {
+  auto pictures = copy_of(known_pictures());
+  for (PicturePair& pair : pictures) {  // the same place, another noise
+    for (int y = 0; y < pair.left.height(); ++y) {
+      for (int x = 0; x < pair.left.width(); ++x) {
+        const int noise = (x * 7 + y * 13) % 5 - 2;
+        pair.right.at(x, y) = static_cast<std::uint8_t>(std::clamp(pair.left.at(x, y) + noise, 0, 255));
+      }
+    }
+  }
+  EXPECT_THAT(refusal(pictures, options_for(kBoard)), HasSubstr("left and right are pictures of one camera"));
+}
+
 TEST(Solve, SaysThatLeftAndRightAreSwapped) {
   auto pictures = copy_of(known_pictures());
   for (PicturePair& pair : pictures) std::swap(pair.left, pair.right);
