@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -33,6 +34,13 @@ Paper needed(const Board& board) {
 }
 
 // Upright or on its side.
+// But for capital letters.
+bool alike(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char one, unsigned char other) {
+    return std::tolower(one) == std::tolower(other);
+  });
+}
+
 std::optional<Paper> turned_to_fit(const Paper& paper, const Paper& least) {
   const Paper aside{paper.name, paper.height_mm, paper.width_mm};
   for (const Paper& way : {paper, aside}) {
@@ -142,9 +150,9 @@ class PdfCanvas final : public Canvas {
 
 Paper paper_for(std::string_view name, const Board& board) {
   const Paper least = needed(board);
-  if (name == "fit") return least;
+  if (alike(name, "fit")) return least;
   const auto known =
-      std::find_if(kKnown.begin(), kKnown.end(), [&](const Paper& paper) { return paper.name == name; });
+      std::find_if(kKnown.begin(), kKnown.end(), [&](const Paper& paper) { return alike(paper.name, name); });
   if (known == kKnown.end()) {
     throw UsageError("--paper: found '" + std::string(name) + "', allowed are " + std::string(kPapers));
   }

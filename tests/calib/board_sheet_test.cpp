@@ -32,6 +32,7 @@ std::size_t count(const std::string& text, const std::string& word) {
 
 TEST(BoardSheet, ChoosesThePapersSide) {
   EXPECT_EQ(paper_for("a4", kBoard).width_mm, 297);
+  EXPECT_EQ(paper_for("A4", kBoard).width_mm, 297);
   EXPECT_EQ(paper_for("a4", (Board{5, 8, 0.025})).width_mm, 210);
   EXPECT_GE(paper_for("fit", (Board{30, 20, 0.05})).width_mm, 31 * 50);
   EXPECT_THAT(refusal("a4", (Board{9, 6, 0.04})), HasSubstr("choose smaller squares or --paper a2"));
