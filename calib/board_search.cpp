@@ -50,8 +50,13 @@ int times_seen(const std::vector<PicturePair>& pictures, const Board& board) {
 // column, and in a blurred picture anything for a small board.
 constexpr int kOneInSoMany = 3;
 
+struct SeenBoard {
+  Board board;
+  int times;  ///< times_seen()
+};
+
 // The board that the sampled pictures show, if any.
-std::optional<Board> board_in(const std::vector<PicturePair>& pictures) {
+std::optional<SeenBoard> board_in(const std::vector<PicturePair>& pictures) {
   std::map<std::pair<int, int>, int> votes;
   std::mutex mutex;
   const auto places = sampled(pictures);
@@ -64,7 +69,7 @@ std::optional<Board> board_in(const std::vector<PicturePair>& pictures) {
     progress.step();
   });
   // The largest one, for often only a part of a board is found, that is found often enough when it is looked
-  // for.
+  // for; first of those that were come upon more than once.
   std::vector<std::pair<std::pair<int, int>, int>> candidates(votes.begin(), votes.end());
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
     return std::pair(a.second > 1, a.first.first * a.first.second) >
@@ -74,7 +79,8 @@ std::optional<Board> board_in(const std::vector<PicturePair>& pictures) {
   for (const auto& [size, count] : candidates) showing += count;
   for (const auto& [size, count] : candidates) {
     const Board board{size.first, size.second, 0};
-    if (kOneInSoMany * times_seen(pictures, board) >= showing) return board;
+    const int times = times_seen(pictures, board);
+    if (kOneInSoMany * times >= showing) return SeenBoard{board, times};
   }
   return std::nullopt;
 }
@@ -111,22 +117,24 @@ bool same_size(const Board& a, const Board& b) {
 // edge, and so, about as often as that; where they seem to show a smaller one, it may be partly hidden in
 // just these.
 void require_size(const std::vector<PicturePair>& pictures, const Board& board) {
-  const auto there = board_in(pictures);
-  if (!there || same_size(*there, board)) return;
-  const int this_one = times_seen(pictures, board), other = times_seen(pictures, *there);
-  const bool is_larger = there->columns * there->rows > board.columns * board.rows;
-  if (is_larger ? this_one > 2 * other : this_one > 0) return;
-  // Of as many pictures twice; seen in fewer, it says little against what a person said.
-  if (other < static_cast<int>(sampled(pictures).size())) return;
-  throw CalibrationError("the pictures show a board of " + in_words(*there) + ", not " + in_words(board) +
-                         "; say --board " + std::to_string(there->columns) + "x" +
-                         std::to_string(there->rows) + " (inner corners are those where four squares meet)");
+  const auto seen = board_in(pictures);
+  if (!seen || same_size(seen->board, board)) return;
+  const Board& there = seen->board;
+  // Seen in less than half of the pictures, of which each pair has two, it says little against a person's
+  // word.
+  if (seen->times < static_cast<int>(sampled(pictures).size())) return;
+  const int this_one = times_seen(pictures, board);
+  const bool is_larger = there.columns * there.rows > board.columns * board.rows;
+  if (is_larger ? this_one > 2 * seen->times : this_one > 0) return;
+  throw CalibrationError("the pictures show a board of " + in_words(there) + ", not " + in_words(board) +
+                         "; say --board " + std::to_string(there.columns) + "x" + std::to_string(there.rows) +
+                         " (inner corners are those where four squares meet)");
 }
 
 }  // namespace
 
 Board guess_board(const std::vector<PicturePair>& pictures) {
-  if (const auto board = board_in(pictures)) return *board;
+  if (const auto seen = board_in(pictures)) return seen->board;
   throw CalibrationError(
       "no chessboard was found in the pictures; the whole board with its white border must be seen, flat, "
       "sharp and evenly lit");

@@ -33,7 +33,6 @@ Paper needed(const Board& board) {
           height_mm(board) + 2 * kMargin_mm + kFooter_mm};
 }
 
-// Upright or on its side.
 // But for capital letters.
 bool alike(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char one, unsigned char other) {
@@ -41,6 +40,7 @@ bool alike(std::string_view a, std::string_view b) {
   });
 }
 
+// Upright or on its side.
 std::optional<Paper> turned_to_fit(const Paper& paper, const Paper& least) {
   const Paper aside{paper.name, paper.height_mm, paper.width_mm};
   for (const Paper& way : {paper, aside}) {

@@ -157,10 +157,9 @@ std::optional<std::string> problem_with_view(const Calibration& calibration) {
   const double left = share_seen(calibration.left), right = share_seen(calibration.right);
   if (std::min(left, right) >= kLeast) return std::nullopt;
   std::ostringstream out;
-  out << std::fixed << std::setprecision(1) << "only " << 100 * left
-      << " % of the left rectified picture and " << 100 * right
-      << " % of the right one would have anything in them; these are the numbers of no camera: calibrate "
-         "again";
+  out << std::fixed << std::setprecision(1) << "only " << 100 * std::min(left, right) << " % of the "
+      << (left <= right ? "left" : "right")
+      << " rectified picture would have anything in it; these are the numbers of no camera: calibrate again";
   return out.str();
 }
 

@@ -242,6 +242,17 @@ TEST(Solve, SaysWhichBoardIsThereInstead) {
   }
 }
 
+TEST(Solve, OneSmallBoardSaysNothingAgainstTheOneThatWasNamed) {
+  auto pictures = rendered(known_cameras({640, 480}), {5, 4, 0.04}, 6);
+  for (std::size_t i = 1; i < pictures.size(); ++i) {
+    for (int y = 0; y < 480; ++y) {
+      std::fill_n(pictures[i].left.row(y), 640, std::uint8_t{120});
+      std::fill_n(pictures[i].right.row(y), 640, static_cast<std::uint8_t>(100 + i));
+    }
+  }
+  EXPECT_THAT(refusal(pictures, options_for(kBoard)), HasSubstr("no board with 9×6 inner corners was found"));
+}
+
 TEST(Solve, SaysThatThereIsNoBoard) {
   std::vector<PicturePair> pictures(6);
   for (PicturePair& pair : pictures) pair = {"grey", GreyImage(320, 240), GreyImage(320, 240)};

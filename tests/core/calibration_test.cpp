@@ -25,6 +25,19 @@ Calibration sound() {
 
 TEST(Calibration, SoundOneHasNoProblem) { EXPECT_EQ(problem_with(sound()), std::nullopt); }
 
+TEST(Calibration, AViewOfNextToNothingIsAProblem) {
+  EXPECT_EQ(problem_with_view(sound()), std::nullopt);
+  Calibration c = sound();
+  c.right.projection.cx = 5000;  // the picture lies to the left of what is drawn
+  EXPECT_EQ(
+      problem_with_view(c).value_or(""),
+      "only 0.0 % of the right rectified picture would have anything in it; these are the numbers of no "
+      "camera: calibrate again");
+  c = sound();
+  c.left.rotation = rotation_about({0, 3, 0});  // looks the other way
+  EXPECT_EQ(problem_with_view(c).value_or("").find("only 0.0 % of the left"), 0U);
+}
+
 TEST(Calibration, ProblemsAreNamed) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
