@@ -94,9 +94,8 @@ class SimdSearch final : public RowSearch {
         left_rows_(size(shape_.recompute ? shape_.window + kBatch : 1)),
         zeros_(shape_.recompute ? size(shape_.right_row_bytes()) : difference_row_bytes()),
         differences_(shape_.recompute ? 0 : size(shape_.window + 1) * difference_row_bytes()),
-        lane_masks_(size(shape_.padded_disparities())),
         block_sums_(size(kernels::kBlockColumns) * size(shape_.padded_disparities()) + 2 * kBlockMargin) {
-    kernel_.fill_lane_masks(shape_, lane_masks_.data());
+    std::fill_n(block_sums_.data(), block_sums_.size(), kernel_.no_sum);
     for (const Strip& strip : strips_) {
       column_sums_.emplace_back(size(shape_.window + strip.columns()) * size(shape_.padded_disparities()));
     }
@@ -168,8 +167,7 @@ class SimdSearch final : public RowSearch {
       change.differences = differences(y);
       change.removed_differences = leaving >= 0 ? differences(leaving) : zeros_.data();
     }
-    const kernels::Scratch scratch{column_sums_[strip].data(), block_sums_.data() + kBlockMargin,
-                                   lane_masks_.data()};
+    const kernels::Scratch scratch{column_sums_[strip].data(), block_sums_.data() + kBlockMargin};
     if (winners == nullptr) return kernel_.add_row(shape_, strips_[strip], change, scratch);
     const auto at = size(winners->first);
     kernel_.search_row(shape_, strips_[strip], change, scratch,
@@ -186,7 +184,6 @@ class SimdSearch final : public RowSearch {
   AlignedBuffer<std::uint8_t> zeros_;                      // what leaves the window while it fills
   AlignedBuffer<std::uint8_t> differences_;                // of the last `window` rows, in turn
   std::vector<AlignedBuffer<std::uint16_t>> column_sums_;  // of each strip
-  AlignedBuffer<std::uint8_t> lane_masks_;
   AlignedBuffer<std::uint16_t> block_sums_;
   int next_row_ = 0;
 };

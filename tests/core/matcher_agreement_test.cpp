@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <string>
+#include <tuple>
 
 #include "tests/support/matcher_cases.h"
 #include "tests/support/matcher_oracle.h"
@@ -146,6 +147,36 @@ TEST(MatcherAgreement, EveryImplementationGivesWhatTheOracleGives) {
   std::string isas;
   for (const Isa isa : isas_that_run()) isas.append(" ").append(name_of(isa));
   RecordProperty("instruction_sets", isas);
+}
+
+// A kernel holds disparities in vectors and chunks of 32 to 64; how the last of them are laid out depends on
+// their number alone.
+TEST(MatcherAgreement, EveryNumberOfDisparitiesInEveryArithmetic) {
+  Random random(kFirstSeed);
+  const int step = kSanitized || std::getenv("STEREOD_TEST_CASES") != nullptr ? 7 : 1;
+  for (int disparities = 1; disparities <= 131 && !testing::Test::HasFailure(); disparities += step) {
+    Case c;
+    c.options.disparities = disparities;
+    c.options.subpixel = true;
+    c.options.uniqueness_ratio = 10;
+    for (const auto& [prefilter, cap, window] : {
+             std::tuple{Prefilter::kXsobel, 31, 5},   // packed with the number of the group
+             std::tuple{Prefilter::kXsobel, 63, 11},  // packed in halves
+             std::tuple{Prefilter::kNone, 31, 7},     // raw
+             std::tuple{Prefilter::kNone, 31, 17},    // wide
+         }) {
+      c.options.prefilter = prefilter;
+      c.options.prefilter_cap = cap;
+      c.options.window = window;
+      const Size size{window + random.between(disparities / 2, disparities + 40), window + 1};
+      const StereoPair pair = random_pair(random.one_of(kAllContents), size, random.next());
+      const DisparityImage oracle = oracle_match(pair.left.view(), pair.right.view(), c.options);
+      for (const MatcherOptions& options : implementations_of(c.options)) {
+        EXPECT_TRUE(agrees(oracle, pair, {}, options, 1))
+            << "  " << disparities << " disparities, window " << window;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ struct Masks {
   }();
 
   Masks(const Shape& shape, int chunk)
-      : before_first(shape.window - 2 + chunk * shape.chunk), most(shape.chunk) {}
+      : before_first(shape.window - 2 + shape.first_of(chunk)),
+        most(shape.disparities < shape.chunk ? shape.disparities : shape.chunk) {}
 
   inline const std::uint16_t* at(int column) const {
     int searched = column - before_first;
@@ -36,7 +37,7 @@ struct Masks {
   }
 
   int before_first;  // the column before the first one in which a disparity of the chunk can be searched
-  int most;          // disparities of the chunk
+  int most;          // disparities of the chunk that are searched
 };
 
 template <typename V, Arithmetic kA, int kVectors>
@@ -51,18 +52,18 @@ class BlockSearch {
   static void row(const Shape& shape, const Strip& strip, const RowChange& change, const Scratch& scratch,
                   const Winners& out) {
     Running running[kMaxChunks];
-    for (int chunk = 0; chunk < shape.chunks; ++chunk) start(shape, chunk, running[chunk]);
+    for (int chunk = 0; chunk < shape.chunks; ++chunk) start(running[chunk]);
+    Best best;
+    std::uint32_t found[kHalves][kBlockColumns] = {};
     for (int first = strip.first, end = first; first < strip.end; first = end) {
       end = end_of_block(shape, strip, first);
-      std::uint32_t best[kBlockColumns];  // cost << 16 | k: the least is the winner, the lowest k on a tie
       for (int chunk = 0; chunk < shape.chunks; ++chunk) {
         const Block block{first, end, first};
-        std::uint32_t found[kHalves][kBlockColumns];
         const Sweep sweep_block = sweep_for(shape, block, chunk);
         sweep_block(shape, strip, change, scratch, block, chunk, running[chunk], found);
         for (int half = 0; half < kHalves; ++half) {
-          const int base = chunk * kChunk + half * (kChunk / kHalves);
-          BlockWinners<V, kA>::merge(found[half], end - first, static_cast<std::uint32_t>(base), best);
+          BlockWinners<V, kA>::merge(found[half], places_of(shape, chunk, half), chunk == 0 && half == 0,
+                                     best);
         }
       }
       BlockWinners<V, kA>::write(shape, strip, scratch, first, end, best, out);
@@ -79,6 +80,14 @@ class BlockSearch {
     return end < strip.end ? end : strip.end;
   }
 
+  // Which disparities the places in a chunk, or in half of one, are.
+  static Places places_of(const Shape& shape, int chunk, int half) {
+    const int begin = half * (kChunk / kHalves);
+    const int last = last_part<V>(kA, kChunk);
+    return {static_cast<std::int16_t>(shape.first_of(chunk) + begin), static_cast<std::int16_t>(last - begin),
+            static_cast<std::int16_t>(last - last_part_disparity<V>(shape))};
+  }
+
   struct Running;
   using Sweep = void (*)(const Shape&, const Strip&, const RowChange&, const Scratch&, const Block&,
                          int chunk, Running&, std::uint32_t (*found)[kBlockColumns]);
@@ -90,16 +99,21 @@ class BlockSearch {
   }
   template <bool kRecompute>
   static Sweep sweep_for(const Shape& shape, const Block& block, int chunk) {
-    if constexpr (requires { V::kOneSize; }) return sweep<kRecompute, true, true, true>;
+    if constexpr (requires { V::kOneSize; }) return sweep<kRecompute, true, kShifted>;
     const bool keep = shape.neighbours || shape.uniqueness_ratio > 0;
-    const int chunk_end = (chunk + 1) * kChunk;
-    const bool padded = chunk_end > shape.disparities;
-    const int last = padded ? shape.disparities : chunk_end;
-    if (block.first - shape.window + 2 < last)
-      return keep ? sweep<kRecompute, true, true, true> : sweep<kRecompute, true, true, false>;
-    if (padded) return keep ? sweep<kRecompute, false, true, true> : sweep<kRecompute, false, true, false>;
-    return keep ? sweep<kRecompute, false, false, true> : sweep<kRecompute, false, false, false>;
+    const int back = last_part<V>(kA, kChunk) - last_part_disparity<V>(shape);
+    const int lanes_end = shape.first_of(chunk) + kChunk - back;
+    if (block.first - shape.window + 2 < lanes_end || lanes_end > shape.disparities) {
+      return keep ? sweep<kRecompute, true, kShifted> : sweep<kRecompute, true, kNothing>;
+    }
+    if (!keep) return sweep<kRecompute, false, kNothing>;
+    const bool aligned = back == 0 && shape.first_of(chunk) % kLanes == 0;
+    return aligned ? sweep<kRecompute, false, kAligned> : sweep<kRecompute, false, kShifted>;
   }
+
+  // What goes to scratch.block_sums: nothing, or all sums, in whole vectors one after the other or wherever
+  // the chunk's first disparity and its last part make them lie.
+  enum Keep { kNothing, kAligned, kShifted };
 
   // The window sums of a chunk on their way along the row, in memory between two blocks, register by
   // register.
@@ -113,20 +127,18 @@ class BlockSearch {
     return position < kVectors ? 2 * position : 2 * (position - kVectors) + 1;
   }
 
-  // In packed arithmetic the low bits of every sum hold the number of its group of 8 disparities.
-  // Disparities that only fill up the chunk begin, and stay, with the largest sum.
-  static void start(const Shape& shape, int chunk, Running& running) {
+  // In packed arithmetic the low bits of every sum hold the number of its group of 8 places.
+  static void start(Running& running) {
     Running ordered;
-    for (int k = 0; k < kChunk; ++k) {
+    for (int place = 0; place < kChunk; ++place) {
       int sum = 0;
-      if (kA == Arithmetic::kPacked) sum = k / 8;
-      if (kA == Arithmetic::kPackedHalves) sum = k % (kChunk / 2) / 8;
-      if (chunk * kChunk + k >= shape.disparities) sum = 0xFFFF;
-      ordered.sums[k] = static_cast<std::uint16_t>(sum + V::kBias);
+      if (kA == Arithmetic::kPacked) sum = place / 8;
+      if (kA == Arithmetic::kPackedHalves) sum = place % (kChunk / 2) / 8;
+      ordered.sums[place] = static_cast<std::uint16_t>(sum + V::kBias);
     }
     for (int c = 0; c < kVectors; ++c) {
       Reg first, second;
-      load_lanes(ordered.sums, c, first, second);
+      load_lanes(ordered.sums, c, last_part<V>(kA, kChunk), first, second);
       V::store_aligned(running.sums + 2 * c * kLanes, first);
       V::store_aligned(running.sums + (2 * c + 1) * kLanes, second);
     }
@@ -134,17 +146,16 @@ class BlockSearch {
 
   // Adds the row to the column sums of the block, slides the window along them and writes for each column the
   // least sum and where it is. kRamp: which disparities can be searched differs from column to column.
-  // kPadded: there are disparities that only fill up the chunk. kKeep: all sums go to scratch.block_sums.
-  template <bool kRecompute, bool kRamp, bool kPadded, bool kKeep>
+  template <bool kRecompute, bool kRamp, Keep kKeep>
   static void sweep(const Shape& shape, const Strip& strip, const RowChange& row, const Scratch& scratch,
                     const Block& block, int chunk, Running& running, std::uint32_t (*found)[kBlockColumns]) {
     const std::ptrdiff_t back = static_cast<std::ptrdiff_t>(shape.window) * kChunk;
     const Masks<V> masks(shape, chunk);
     const std::uint16_t* mask = nullptr;
-    const std::uint8_t* lane_mask = scratch.lane_masks + chunk * kChunk;
+    const int last = kKeep == kAligned ? last_part<V>(kA, kChunk) : last_part_disparity<V>(shape);
     Place<V, kA, kRecompute> place(shape, strip, row, chunk, block.first);
     std::uint16_t* sums = sums_of(shape, strip, scratch, chunk, block.first);
-    std::uint16_t* kept = scratch.block_sums + chunk * kChunk;
+    std::uint16_t* kept = scratch.block_sums + shape.first_of(chunk);
     const int kept_step = shape.padded_disparities();
     Reg window[2 * kVectors];
 #pragma GCC unroll 8
@@ -159,53 +170,69 @@ class BlockSearch {
       for (int c = 0; c < kVectors; ++c) {
         Reg first, second;
         std::uint16_t* const in = sums + c * V::kBytes;
-        ColumnUpdate<V, kA, kRecompute, kPadded>::apply(place, c * V::kBytes, left, removed_left, lane_mask,
-                                                        in, first, second);
+        ColumnUpdate<V, kA, kRecompute>::apply(place, c * V::kBytes, c == kVectors - 1, last, left,
+                                               removed_left, in, first, second);
         Reg& lower = window[2 * c];
         Reg& upper = window[2 * c + 1];
-        lower = V::add16(lower, V::sub16(first, V::load_aligned(in - back)));
-        upper = V::add16(upper, V::sub16(second, V::load_aligned(in - back + kLanes)));
+        // Pinned so that the compiler does not take the old sum from the window's instead: with its sum of
+        // three it would need a copy.
+        first = V::sub16(first, V::load_aligned(in - back));
+        second = V::sub16(second, V::load_aligned(in - back + kLanes));
+        V::pin(first);
+        V::pin(second);
+        lower = V::add16(lower, first);
+        upper = V::add16(upper, second);
         V::pin(lower);
         V::pin(upper);
         candidates[2 * c] = lower;
         candidates[2 * c + 1] = upper;
-        if constexpr (kRamp) mask_lanes(mask, c, candidates[2 * c], candidates[2 * c + 1]);
-        if constexpr (kKeep) keep(kept, c, candidates[2 * c], candidates[2 * c + 1]);
+        if constexpr (kRamp) mask_lanes(mask, c, last, candidates[2 * c], candidates[2 * c + 1]);
+        if constexpr (kKeep != kNothing) {
+          keep<kKeep>(kept, c, last, candidates[2 * c], candidates[2 * c + 1]);
+        }
       }
       find_least(candidates, column - block.first, found);
       sums += kChunk;
       place.next_column(kChunk);
-      if constexpr (kKeep) kept += kept_step;
+      if constexpr (kKeep != kNothing) kept += kept_step;
     }
 #pragma GCC unroll 8
     for (int i = 0; i < 2 * kVectors; ++i) V::store_aligned(running.sums + i * kLanes, window[i]);
   }
 
-  // From numbers in the order of disparities to the registers of byte vector c.
-  static inline void load_lanes(const std::uint16_t* ordered, int c, Reg& first, Reg& second) {
+  // From numbers in the order of disparities to the registers of byte vector c; the chunk's last part begins
+  // with number `last`.
+  static inline void load_lanes(const std::uint16_t* ordered, int c, int last, Reg& first, Reg& second) {
     if constexpr (kEvenOdd) {
       first = V::load(ordered + c * kLanes);
-      second = V::load(ordered + kChunk / 2 + c * kLanes);
+      second = V::load(ordered + last + c * kLanes);
     } else {
-      V::load_in_order(ordered + c * V::kBytes, first, second);
+      V::load_in_order(ordered + begin_of(c, last), first, second);
     }
   }
 
-  static inline void mask_lanes(const std::uint16_t* mask, int c, Reg& first, Reg& second) {
+  static inline void mask_lanes(const std::uint16_t* mask, int c, int last, Reg& first, Reg& second) {
     Reg first_mask, second_mask;
-    load_lanes(mask, c, first_mask, second_mask);
+    load_lanes(mask, c, last, first_mask, second_mask);
     first = V::masked(first, first_mask);
     second = V::masked(second, second_mask);
   }
 
-  static inline void keep(std::uint16_t* kept, int c, Reg first, Reg second) {
-    if constexpr (kEvenOdd) {
+  template <Keep kKeep>
+  static inline void keep(std::uint16_t* kept, int c, int last, Reg first, Reg second) {
+    if constexpr (!kEvenOdd) {
+      V::template store_in_order<kKeep == kAligned>(kept + begin_of(c, last), first, second);
+    } else if constexpr (kKeep == kAligned) {
       V::store_aligned(kept + c * kLanes, first);
-      V::store_aligned(kept + kChunk / 2 + c * kLanes, second);
+      V::store_aligned(kept + last + c * kLanes, second);
     } else {
-      V::store_in_order(kept + c * V::kBytes, first, second);
+      V::store(kept + c * kLanes, first);
+      V::store(kept + last + c * kLanes, second);
     }
   }
+
+  // The first disparity of byte vector c where vectors follow one another.
+  static inline int begin_of(int c, int last) { return c == kVectors - 1 ? last : c * V::kBytes; }
 
   // Packed: the least sum in the low half, its lane in the high half. Else: the least sum in the low half,
   // its k in the high half.

@@ -13,32 +13,49 @@ struct Block {
   int first, end, base;
 };
 
+/// Which disparities places in a chunk are: `first` + place, but from place `last` on `back` less.
+struct Places {
+  std::int16_t first, last, back;
+};
+
+/// Of each column of a block the least cost and its disparity, the lowest on a tie.
+struct Best {
+  std::uint16_t k[kBlockColumns];
+  std::uint16_t cost[kBlockColumns];
+};
+
 template <typename V, Arithmetic kA>
 class BlockWinners {
   using Reg = typename V::Reg;
 
  public:
-  // Brings found[] of disparities from `base` on to cost << 16 | k and keeps the lesser of it and best[].
-  static void merge(const std::uint32_t* found, int count, std::uint32_t base, std::uint32_t* best) {
-    // A whole block has a number of columns that the compiler knows: that saves it most of the work around a
-    // vector loop.
-    if (count == kBlockColumns) {
-      base == 0 ? first_entries(found, kBlockColumns, best)
-                : lesser_entries(found, kBlockColumns, base, best);
-    } else {
-      base == 0 ? first_entries(found, count, best) : lesser_entries(found, count, base, best);
+  // Keeps of found[] what is less than the best so far; the first has nothing to be less than. Whole blocks,
+  // whatever a block has: a number of columns that the compiler knows saves most of the work around a vector
+  // loop.
+  static void merge(const std::uint32_t* __restrict found, Places places, bool first, Best& __restrict best) {
+    for (int i = 0; first && i < kBlockColumns; ++i) {
+      best.k[i] = disparity_found(found[i], places);
+      best.cost[i] = cost_found(found[i]);
+    }
+    for (int i = 0; !first && i < kBlockColumns; ++i) {
+      const std::uint16_t k = disparity_found(found[i], places);
+      const std::uint16_t cost = cost_found(found[i]);
+      // On a tie that found before is the lower disparity, or the same.
+      const bool less = cost < best.cost[i];
+      best.k[i] = less ? k : best.k[i];
+      best.cost[i] = less ? cost : best.cost[i];
     }
   }
 
   // Writes the winners of the block's columns whose window is complete.
   static void write(const Shape& shape, const Strip& strip, const Scratch& scratch, int first, int end,
-                    const std::uint32_t* best, const Winners& out) {
+                    const Best& best, const Winners& out) {
     const int skip = shape.window - 1;  // columns before the first complete window
     const int begin = first > strip.first + skip ? first : strip.first + skip;
     if (end - begin == kBlockColumns) {
-      split(best, kBlockColumns, out.index + (begin - skip), out.cost + (begin - skip));
+      copy(best, 0, kBlockColumns, out.index + (begin - skip), out.cost + (begin - skip));
     } else {
-      split(best + (begin - first), end - begin, out.index + (begin - skip), out.cost + (begin - skip));
+      copy(best, begin - first, end - begin, out.index + (begin - skip), out.cost + (begin - skip));
     }
     const Block block{begin, end, first};
     if (shape.neighbours) write_neighbours(shape, scratch, block, best, out);
@@ -46,42 +63,37 @@ class BlockWinners {
   }
 
  private:
-  [[gnu::always_inline]] static inline std::uint32_t entry_of(std::uint32_t found, std::uint32_t base) {
-    constexpr int kShift = shift_of(kA);
-    constexpr std::uint32_t kGroups = (1U << kShift) - 1;
-    const std::uint32_t cost = (found & 0xFFFF) >> kShift;
-    return cost << 16 | (((found & kGroups) << 3) + (found >> 16) + base);
+  static constexpr int kShift = shift_of(kA);
+  static constexpr std::uint32_t kGroups = (1U << kShift) - 1;
+
+  // In 16 bits, of which twice as many fit in a vector as of 32.
+  [[gnu::always_inline]] static inline std::uint16_t cost_found(std::uint32_t found) {
+    return static_cast<std::uint16_t>(static_cast<std::uint16_t>(found) >> kShift);
   }
-  [[gnu::always_inline]] static inline void first_entries(const std::uint32_t* __restrict found, int count,
-                                                          std::uint32_t* __restrict best) {
-    for (int i = 0; i < count; ++i) best[i] = entry_of(found[i], 0);
+  [[gnu::always_inline]] static inline std::uint16_t disparity_found(std::uint32_t found, Places places) {
+    const auto group = static_cast<std::int16_t>((found & kGroups) << 3);
+    const auto place = static_cast<std::int16_t>(group + static_cast<std::int16_t>(found >> 16));
+    const std::int16_t back = place < places.last ? std::int16_t{0} : places.back;
+    return static_cast<std::uint16_t>(places.first + place - back);
   }
-  [[gnu::always_inline]] static inline void lesser_entries(const std::uint32_t* __restrict found, int count,
-                                                           std::uint32_t base,
-                                                           std::uint32_t* __restrict best) {
+  [[gnu::always_inline]] static inline void copy(const Best& __restrict best, int from, int count,
+                                                 std::uint16_t* __restrict index,
+                                                 std::uint32_t* __restrict cost) {
     for (int i = 0; i < count; ++i) {
-      const std::uint32_t entry = entry_of(found[i], base);
-      best[i] = best[i] <= entry ? best[i] : entry;
-    }
-  }
-  [[gnu::always_inline]] static inline void split(const std::uint32_t* __restrict best, int count,
-                                                  std::uint16_t* __restrict index,
-                                                  std::uint32_t* __restrict cost) {
-    for (int i = 0; i < count; ++i) {
-      index[i] = static_cast<std::uint16_t>(best[i]);
-      cost[i] = best[i] >> 16;
+      index[i] = best.k[from + i];
+      cost[i] = best.cost[from + i];
     }
   }
 
   // The kept sums of the winner of column `column`.
   static inline const std::uint16_t* winner_sums(const Shape& shape, const Scratch& scratch,
-                                                 const Block& block, const std::uint32_t* best, int column) {
+                                                 const Block& block, const Best& best, int column) {
     const int at = column - block.base;
-    return scratch.block_sums + at * shape.padded_disparities() + (best[at] & 0xFFFF);
+    return scratch.block_sums + at * shape.padded_disparities() + best.k[at];
   }
 
   static void write_neighbours(const Shape& shape, const Scratch& scratch, const Block& block,
-                               const std::uint32_t* best, const Winners& out) {
+                               const Best& best, const Winners& out) {
     const int skip = shape.window - 1;
     // First all three costs in one load, then apart in vectors.
     std::uint64_t three[kBlockColumns];
@@ -97,18 +109,17 @@ class BlockWinners {
     }
   }
 
-  static inline std::uint32_t cost_of(std::uint32_t sum) { return (sum ^ V::kBias) >> shift_of(kA); }
+  static inline std::uint32_t cost_of(std::uint32_t sum) { return (sum ^ V::kBias) >> kShift; }
 
   // Compares all kept sums of a column with the limit and looks whether any but the winner's and its
   // neighbours' is below.
   static void write_ambiguous(const Shape& shape, const Scratch& scratch, const Block& block,
-                              const std::uint32_t* best, const Winners& out) {
-    constexpr std::uint32_t kGroups = (1U << shift_of(kA)) - 1;
+                              const Best& best, const Winners& out) {
     const auto ratio = static_cast<std::uint32_t>(shape.uniqueness_ratio);
     std::uint32_t limits[kBlockColumns];  // as sums with the highest number of a group, without bias
     for (int i = 0; i < block.end - block.base; ++i) {
-      const std::uint32_t cost = best[i] >> 16;
-      const std::uint32_t limit = (cost + cost * ratio / 100) << shift_of(kA) | kGroups;
+      const std::uint32_t cost = best.cost[i];
+      const std::uint32_t limit = (cost + cost * ratio / 100) << kShift | kGroups;
       limits[i] = limit < 0xFFFE ? limit : 0xFFFE;  // 0xFFFF is what cannot be searched
     }
     const std::uint16_t* sums = scratch.block_sums;
@@ -117,7 +128,7 @@ class BlockWinners {
     std::uint8_t* out_ambiguous = out.ambiguous + block.base - (shape.window - 1);
     for (int i = 0; i < block.end - block.base; ++i) {
       const Reg limit = V::broadcast16(static_cast<std::uint16_t>(limits[i] ^ V::kBias));
-      const int winner = static_cast<int>(best[i] & 0xFFFF);
+      const int winner = best.k[i];
       std::uint64_t rivals = 0;
       for (int chunk = 0; chunk < chunks; ++chunk, sums += chunk_size) {
         rivals |= at_most(sums, limit, chunk_size) & ~beside(winner - chunk * chunk_size);

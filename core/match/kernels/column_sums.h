@@ -21,6 +21,23 @@ constexpr bool even_odd_order(Arithmetic arithmetic) {
   return V::kEvenOdd && arithmetic != Arithmetic::kRaw && arithmetic != Arithmetic::kWide;
 }
 
+/// Where the last part of a chunk begins: its upper half where halves are interleaved, else its last vector.
+template <typename V>
+constexpr int last_part(Arithmetic arithmetic, int chunk) {
+  return even_odd_order<V>(arithmetic) ? chunk / 2 : chunk - V::kBytes;
+}
+
+/// Which disparity of the chunk that is. A chunk that is wider than the search has its last part begin
+/// earlier by as much, so that every lane is a disparity that is searched, some of them twice, and none costs
+/// anything for being there to fill up the chunk. Only fewer disparities than the last part begins with leave
+/// lanes that are none.
+template <typename V>
+[[gnu::always_inline]] constexpr int last_part_disparity(const Shape& shape) {
+  const int begin = last_part<V>(shape.arithmetic, shape.chunk);
+  const int spare = shape.chunks == 1 ? shape.chunk - shape.disparities : 0;
+  return spare < begin ? begin - spare : 0;
+}
+
 /// The memory of the strip's column `column` in a chunk.
 [[gnu::always_inline]] inline std::uint16_t* sums_of(const Shape& shape, const Strip& strip,
                                                      const Scratch& scratch, int chunk, int column) {
@@ -44,7 +61,7 @@ struct Place {
       : left(row.added.left + column) {
     // A right row begins with the last column.
     right = row.added.right +
-            kStep * (static_cast<std::ptrdiff_t>(shape.width) - 1 - column + chunk * shape.chunk);
+            kStep * (static_cast<std::ptrdiff_t>(shape.width) - 1 - column + shape.first_of(chunk));
     if constexpr (kRecompute) {
       removed_left = row.removed.left + column;
       to_removed_right = row.removed.right - row.added.right;
@@ -70,29 +87,28 @@ struct Place {
 };
 
 /// The column sums of V::kBytes disparities, and how a row changes them.
-///
-/// Disparities that only fill up a chunk are compared like the others; with kPadded their differences are
-/// taken for 0, so that their sums stay what they begin with and never win.
-template <typename V, Arithmetic kA, bool kRecompute, bool kPadded>
+template <typename V, Arithmetic kA, bool kRecompute>
 struct ColumnUpdate {
   using Reg = typename V::Reg;
 
-  static inline Reg difference(Reg left, Reg right, const std::uint8_t* lane_mask) {
-    const Reg all = kA == Arithmetic::kRaw ? V::abs_diff_u8(left, right) : V::abs_diff_small(left, right);
-    return kPadded ? V::bit_and(all, V::load_aligned(lane_mask)) : all;
+  static inline Reg difference(Reg left, Reg right) {
+    return kA == Arithmetic::kRaw ? V::abs_diff_u8(left, right) : V::abs_diff_small(left, right);
   }
 
-  /// Reads the sums at `sums`, of the disparities from k on, changes them, writes them back and leaves them
-  /// in first and second. `left` and `removed_left` are the place's pixels.
-  static inline void apply(const Place<V, kA, kRecompute>& place, int k, Reg left, Reg removed_left,
-                           const std::uint8_t* lane_mask, std::uint16_t* sums, Reg& first, Reg& second) {
-    const Reg added = difference(left, V::load(place.right + k), lane_mask + k);
+  /// Reads the sums at `sums`, of the chunk's bytes from `at` on, changes them, writes them back and leaves
+  /// them in first and second. The last vector's pixels begin with disparity `last` of the chunk where it is
+  /// the last part. `left` and `removed_left` are the place's pixels.
+  static inline void apply(const Place<V, kA, kRecompute>& place, int at, bool is_last, int last, Reg left,
+                           Reg removed_left, std::uint16_t* sums, Reg& first, Reg& second) {
+    // An interleaved row has its last part where it belongs.
+    const std::uint8_t* right = place.right + (!even_odd_order<V>(kA) && is_last ? last : at);
+    const Reg added = difference(left, V::load(right));
     Reg removed;
     if constexpr (kRecompute) {
-      removed = difference(removed_left, V::load(place.right + place.to_removed_right + k), lane_mask + k);
+      removed = difference(removed_left, V::load(right + place.to_removed_right));
     } else {
-      V::store_aligned(place.differences + k, added);
-      removed = V::load_aligned(place.differences + place.to_removed + k);
+      V::store_aligned(place.differences + at, added);
+      removed = V::load_aligned(place.differences + place.to_removed + at);
     }
     first = V::load_aligned(sums);
     second = V::load_aligned(sums + V::kBytes / 2);
@@ -113,14 +129,14 @@ void add_chunks(const Shape& shape, const Strip& strip, const RowChange& row, co
   for (int chunk = 0; chunk < shape.chunks; ++chunk) {
     std::uint16_t* sums = sums_of(shape, strip, scratch, chunk, strip.first);
     Place<V, kA, kRecompute> place(shape, strip, row, chunk, strip.first);
-    const std::uint8_t* lane_mask = scratch.lane_masks + chunk * shape.chunk;
+    const int last = last_part_disparity<V>(shape);
     for (int column = strip.first; column < strip.end; ++column, sums += shape.chunk) {
       const Reg left = V::broadcast8(*place.left);
       const Reg removed_left = kRecompute ? V::broadcast8(*place.removed_left) : left;
-      for (int k = 0; k < shape.chunk; k += V::kBytes) {
+      for (int at = 0; at < shape.chunk; at += V::kBytes) {
         Reg first, second;
-        ColumnUpdate<V, kA, kRecompute, true>::apply(place, k, left, removed_left, lane_mask, sums + k, first,
-                                                     second);
+        ColumnUpdate<V, kA, kRecompute>::apply(place, at, at + V::kBytes == shape.chunk, last, left,
+                                               removed_left, sums + at, first, second);
       }
       place.next_column(shape.chunk);
     }

@@ -39,6 +39,12 @@ struct Shape {
   int uniqueness_ratio;  ///< %; 0: Winners::ambiguous is not wanted
   int columns() const { return width - min_disparity; }
   int padded_disparities() const { return chunk * chunks; }
+  /// The first disparity of a chunk. The last of several ends with the last disparity, and so has some in
+  /// common with the one before it. A single one may be wider than the search; where its disparities lie then
+  /// is said in column_sums.h.
+  int first_of(int of_chunk) const {
+    return of_chunk + 1 < chunks || chunks == 1 ? of_chunk * chunk : disparities - chunk;
+  }
   /// Bytes of a right row as Kernel::prepare_right_row writes it.
   int right_row_bytes() const { return 2 * (width + padded_disparities()) + kRowMargin; }
 };
@@ -78,11 +84,9 @@ struct RowChange {
 /// Memory of one strip. 64-byte aligned.
 struct Scratch {
   std::uint16_t* column_sums;  ///< [chunk][window + column of the strip][k]; the first `window` stay zero
-  std::uint16_t* block_sums;   ///< [kBlockColumns][padded_disparities], with 64 elements before and after
-  /// Ones for the disparities that a chunk has, zeros for those only there to fill it up, in the order in
-  /// which the chunk's bytes lie: [chunks][chunk], written by Kernel::fill_lane_masks; ignored where none are
-  /// filled up.
-  const std::uint8_t* lane_masks;
+  /// [kBlockColumns][padded_disparities], by k, with 64 elements before and after. Those from the last
+  /// disparity on are never written and hold what is larger than any sum: Kernel::no_sum.
+  std::uint16_t* block_sums;
 };
 
 /// One instruction set's kernel. None of the functions needs alignment of image rows.
@@ -98,8 +102,8 @@ struct Kernel {
   /// the kernel's widening of bytes to 16 bits leaves disparities in order.
   void (*prepare_right_row)(const Shape&, const std::uint8_t* right, std::uint8_t* out);
 
-  /// Writes Scratch::lane_masks.
-  void (*fill_lane_masks)(const Shape&, std::uint8_t* out);
+  /// What stands in Scratch::block_sums where there is no sum.
+  std::uint16_t no_sum;
 
   /// Adds a row to the column sums of a strip and subtracts the one that leaves.
   void (*add_row)(const Shape&, const Strip&, const RowChange&, const Scratch&);

@@ -84,7 +84,7 @@ class Dispatch {
 /// The table entry of an instruction set.
 template <typename V>
 constexpr Kernel make_kernel() {
-  return {Dispatch<V>::chunk_for, Xsobel<V>::row,          RightRow<V>::prepare, RightRow<V>::fill_masks,
+  return {Dispatch<V>::chunk_for, Xsobel<V>::row,          RightRow<V>::prepare, 0xFFFF ^ V::kBias,
           Dispatch<V>::add_row,   Dispatch<V>::search_row, interpolate<float, V>};
 }
 

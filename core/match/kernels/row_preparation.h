@@ -36,7 +36,7 @@ class Xsobel {
   }
 };
 
-/// How the disparities of right rows lie: Kernel::prepare_right_row and Kernel::fill_lane_masks.
+/// How the disparities of right rows lie: Kernel::prepare_right_row.
 template <typename V>
 class RightRow {
  public:
@@ -50,17 +50,7 @@ class RightRow {
     for (; p + 16 <= shape.width; p += 16) V::reverse16(right + shape.width - 16 - p, backwards + p);
     for (; p < shape.width; ++p) backwards[p] = right[shape.width - 1 - p];
     for (; p < length; ++p) backwards[p] = 0;
-    if (interleaved) interleave(backwards, shape.chunk / 2, length, out);
-  }
-
-  static void fill_masks(const Shape& shape, std::uint8_t* out) {
-    const bool interleaved = even_odd_order<V>(shape.arithmetic);
-    for (int chunk = 0; chunk < shape.chunks; ++chunk) {
-      for (int i = 0; i < shape.chunk; ++i) {
-        const int k = interleaved ? i / 2 + i % 2 * (shape.chunk / 2) : i;
-        out[chunk * shape.chunk + i] = chunk * shape.chunk + k < shape.disparities ? 0xFF : 0;
-      }
-    }
+    if (interleaved) interleave(backwards, last_part_disparity<V>(shape), length, out);
   }
 
  private:

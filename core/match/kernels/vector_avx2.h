@@ -47,9 +47,10 @@ struct VectorAvx2 : BytesX86<2> {
   static Reg masked(Reg a, Reg mask) { return _mm256_or_si256(a, mask); }
 
   // Unpacking left the lower and the upper eight bytes of each half of the vector.
+  template <bool kAligned>
   static void store_in_order(std::uint16_t* p, Reg first, Reg second) {
-    store_aligned(p, _mm256_permute2x128_si256(first, second, 0x20));
-    store_aligned(p + 16, _mm256_permute2x128_si256(first, second, 0x31));
+    store(p, _mm256_permute2x128_si256(first, second, 0x20));
+    store(p + 16, _mm256_permute2x128_si256(first, second, 0x31));
   }
   static void load_in_order(const std::uint16_t* p, Reg& first, Reg& second) {
     const Reg lower = load(p);

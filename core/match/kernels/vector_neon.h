@@ -58,6 +58,7 @@ struct VectorNeon {
   static Reg min16(Reg a, Reg b) { return vminq_u16(a, b); }
   static Reg masked(Reg a, Reg mask) { return vorrq_u16(a, mask); }
 
+  template <bool kAligned>
   static void store_in_order(std::uint16_t* p, Reg first, Reg second) {
     vst1q_u16(p, first);
     vst1q_u16(p + 8, second);

@@ -85,9 +85,10 @@ struct VectorScalar {
   static Reg masked(Reg a, Reg mask) { return a | mask; }
 
   /// The two halves of a vector of unsigned bytes that was widened, from and to 2·kBytes of memory in order.
+  template <bool kAligned>
   static void store_in_order(std::uint16_t* p, Reg first, Reg second) {
-    store_aligned(p, first);
-    store_aligned(p + 8, second);
+    store(p, first);
+    store(p + 8, second);
   }
   static void load_in_order(const std::uint16_t* p, Reg& first, Reg& second) {
     first = load(p);

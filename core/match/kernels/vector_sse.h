@@ -54,9 +54,10 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
   }
   static Reg masked(Reg a, Reg mask) { return kSse41 ? _mm_or_si128(a, mask) : _mm_max_epi16(a, mask); }
 
+  template <bool kAligned>
   static void store_in_order(std::uint16_t* p, Reg first, Reg second) {
-    store_aligned(p, first);
-    store_aligned(p + 8, second);
+    kAligned ? store_aligned(p, first) : store(p, first);
+    kAligned ? store_aligned(p + 8, second) : store(p + 8, second);
   }
   static void load_in_order(const std::uint16_t* p, Reg& first, Reg& second) {
     first = load(p);
