@@ -65,14 +65,16 @@ Shape shape_for(const MatcherOptions& options, int width, const Kernel& kernel) 
   return shape;
 }
 
-// Strips overlap by a window less one column. In a cache of 24 KiB, 12 KiB of column sums leave room for the
-// rows compared and a block's results; strips narrower than 64 columns would mostly overlap.
+// Strips overlap by a window less one column, and have answers for whole blocks. In a cache of 24 KiB, 20 KiB
+// of column sums leave room for the rows compared; one block is what a strip has at least, or it would mostly
+// overlap.
 std::vector<Strip> strips_for(const Shape& shape) {
   const int overlap = shape.window - 1;
   int answers = shape.columns() - overlap;
   if (shape.recompute) {
-    constexpr int kSumBytes = 12 * 1024;
-    answers = std::max(64, kSumBytes / (2 * shape.padded_disparities()) - overlap);
+    constexpr int kSumBytes = 20 * 1024;
+    const int columns = kSumBytes / (2 * shape.padded_disparities()) - overlap;
+    answers = std::max(1, columns / kernels::kBlockColumns) * kernels::kBlockColumns;
   }
   std::vector<Strip> strips;
   for (int first = 0; first < shape.columns() - overlap; first += answers) {

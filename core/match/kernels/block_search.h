@@ -58,25 +58,27 @@ class BlockSearch {
     for (int first = strip.first, end = first; first < strip.end; first = end) {
       end = end_of_block(shape, strip, first);
       for (int chunk = 0; chunk < shape.chunks; ++chunk) {
-        const Block block{first, end, first};
+        const Block block{first, end};
         const Sweep sweep_block = sweep_for(shape, block, chunk);
         sweep_block(shape, strip, change, scratch, block, chunk, running[chunk], found);
-        for (int half = 0; half < kHalves; ++half) {
+        for (int half = 0; half < kHalves && first != strip.first; ++half) {
           BlockWinners<V, kA>::merge(found[half], places_of(shape, chunk, half), chunk == 0 && half == 0,
                                      best);
         }
       }
-      BlockWinners<V, kA>::write(shape, strip, scratch, first, end, best, out);
+      if (first != strip.first) BlockWinners<V, kA>::write(shape, scratch, {first, end}, best, out);
     }
   }
 
  private:
-  // Blocks end where the left border does, so that no more columns than must be are searched as those of the
-  // border are.
+  // The first block of a strip is what comes before the first whole window. Another ends where the left
+  // border does if that keeps some columns from being searched as those of the border are.
   static int end_of_block(const Shape& shape, const Strip& strip, int first) {
+    if (first == strip.first) return first + shape.window - 1;
+    constexpr int kSome = 8;
     const int border_end = shape.disparities + shape.window - 2;
     int end = first + kBlockColumns;
-    if (first < border_end && border_end < end) end = border_end;
+    if (first < border_end && border_end + kSome < end) end = border_end;
     return end < strip.end ? end : strip.end;
   }
 

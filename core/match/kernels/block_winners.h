@@ -8,9 +8,9 @@
 
 namespace stereod::kernels {
 
-/// The columns [first, end), of a block that begins with column `base`.
+/// The columns [first, end).
 struct Block {
-  int first, end, base;
+  int first, end;
 };
 
 /// Which disparities places in a chunk are: `first` + place, but from place `last` on `back` less.
@@ -47,17 +47,13 @@ class BlockWinners {
     }
   }
 
-  // Writes the winners of the block's columns whose window is complete.
-  static void write(const Shape& shape, const Strip& strip, const Scratch& scratch, int first, int end,
-                    const Best& best, const Winners& out) {
-    const int skip = shape.window - 1;  // columns before the first complete window
-    const int begin = first > strip.first + skip ? first : strip.first + skip;
-    if (end - begin == kBlockColumns) {
-      copy(best, 0, kBlockColumns, out.index + (begin - skip), out.cost + (begin - skip));
-    } else {
-      copy(best, begin - first, end - begin, out.index + (begin - skip), out.cost + (begin - skip));
-    }
-    const Block block{begin, end, first};
+  // Writes the winners of a block's columns.
+  static void write(const Shape& shape, const Scratch& scratch, const Block& block, const Best& best,
+                    const Winners& out) {
+    const int at = block.first - (shape.window - 1);
+    const int count = block.end - block.first;
+    count == kBlockColumns ? copy(best, kBlockColumns, out.index + at, out.cost + at)
+                           : copy(best, count, out.index + at, out.cost + at);
     if (shape.neighbours) write_neighbours(shape, scratch, block, best, out);
     if (shape.uniqueness_ratio > 0) write_ambiguous(shape, scratch, block, best, out);
   }
@@ -76,36 +72,29 @@ class BlockWinners {
     const std::int16_t back = place < places.last ? std::int16_t{0} : places.back;
     return static_cast<std::uint16_t>(places.first + place - back);
   }
-  [[gnu::always_inline]] static inline void copy(const Best& __restrict best, int from, int count,
+  [[gnu::always_inline]] static inline void copy(const Best& __restrict best, int count,
                                                  std::uint16_t* __restrict index,
                                                  std::uint32_t* __restrict cost) {
     for (int i = 0; i < count; ++i) {
-      index[i] = best.k[from + i];
-      cost[i] = best.cost[from + i];
+      index[i] = best.k[i];
+      cost[i] = best.cost[i];
     }
-  }
-
-  // The kept sums of the winner of column `column`.
-  static inline const std::uint16_t* winner_sums(const Shape& shape, const Scratch& scratch,
-                                                 const Block& block, const Best& best, int column) {
-    const int at = column - block.base;
-    return scratch.block_sums + at * shape.padded_disparities() + best.k[at];
   }
 
   static void write_neighbours(const Shape& shape, const Scratch& scratch, const Block& block,
                                const Best& best, const Winners& out) {
-    const int skip = shape.window - 1;
+    const int count = block.end - block.first;
+    const int at = block.first - (shape.window - 1);
     // First all three costs in one load, then apart in vectors.
     std::uint64_t three[kBlockColumns];
-    for (int column = block.first; column < block.end; ++column) {
-      __builtin_memcpy(&three[column - block.first], winner_sums(shape, scratch, block, best, column) - 1,
-                       sizeof(three[0]));
+    const std::uint16_t* sums = scratch.block_sums;
+    const int step = shape.padded_disparities();
+    for (int i = 0; i < count; ++i, sums += step) {
+      __builtin_memcpy(&three[i], sums + best.k[i] - 1, sizeof(three[0]));
     }
-    std::uint32_t* before = out.before + block.first - skip;
-    std::uint32_t* after = out.after + block.first - skip;
-    for (int i = 0; i < block.end - block.first; ++i) {
-      before[i] = cost_of(static_cast<std::uint32_t>(three[i]) & 0xFFFF);
-      after[i] = cost_of(static_cast<std::uint32_t>(three[i] >> 32) & 0xFFFF);
+    for (int i = 0; i < count; ++i) {
+      out.before[at + i] = cost_of(static_cast<std::uint32_t>(three[i]) & 0xFFFF);
+      out.after[at + i] = cost_of(static_cast<std::uint32_t>(three[i] >> 32) & 0xFFFF);
     }
   }
 
@@ -117,7 +106,8 @@ class BlockWinners {
                               const Best& best, const Winners& out) {
     const auto ratio = static_cast<std::uint32_t>(shape.uniqueness_ratio);
     std::uint32_t limits[kBlockColumns];  // as sums with the highest number of a group, without bias
-    for (int i = 0; i < block.end - block.base; ++i) {
+    const int count = block.end - block.first;
+    for (int i = 0; i < count; ++i) {
       const std::uint32_t cost = best.cost[i];
       const std::uint32_t limit = (cost + cost * ratio / 100) << kShift | kGroups;
       limits[i] = limit < 0xFFFE ? limit : 0xFFFE;  // 0xFFFF is what cannot be searched
@@ -125,15 +115,15 @@ class BlockWinners {
     const std::uint16_t* sums = scratch.block_sums;
     const int chunks = shape.chunks;
     const int chunk_size = shape.chunk;
-    std::uint8_t* out_ambiguous = out.ambiguous + block.base - (shape.window - 1);
-    for (int i = 0; i < block.end - block.base; ++i) {
+    std::uint8_t* out_ambiguous = out.ambiguous + block.first - (shape.window - 1);
+    for (int i = 0; i < count; ++i) {
       const Reg limit = V::broadcast16(static_cast<std::uint16_t>(limits[i] ^ V::kBias));
       const int winner = best.k[i];
       std::uint64_t rivals = 0;
       for (int chunk = 0; chunk < chunks; ++chunk, sums += chunk_size) {
         rivals |= at_most(sums, limit, chunk_size) & ~beside(winner - chunk * chunk_size);
       }
-      if (i >= block.first - block.base) out_ambiguous[i] = rivals != 0 ? 1 : 0;
+      out_ambiguous[i] = rivals != 0 ? 1 : 0;
     }
   }
 
