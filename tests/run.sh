@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the tests need, builds, and runs them. With --all also: the formatting, core/ on its own, the address
-# and thread sanitizers, other CPUs by emulation, a real kernel in a virtual machine, and the demo. Ends with one line that sums up.
+# and thread sanitizers, other CPUs by emulation, the fuzz targets, a real kernel in a virtual machine, and the demo. Ends with one
+# line that sums up.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -109,6 +110,10 @@ emulated_cpus() {
   toolchain/install-deps.sh --emulation && tests/emulated/run.sh
 }
 
+fuzz_targets() {
+  toolchain/install-deps.sh --emulation && tests/fuzz/run.sh
+}
+
 case "${1:-}" in
   '' | --all) ;;
   *) die "usage: tests/run.sh [--all]" ;;
@@ -132,6 +137,7 @@ if [[ ${1:-} == --all ]]; then
   suite address-sanitizer preset asan
   suite thread-sanitizer tsan_preset
   suite emulated-cpus emulated_cpus
+  suite fuzz-targets fuzz_targets
   suite demo bash daemon/demo.sh
 fi
 

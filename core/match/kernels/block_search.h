@@ -204,7 +204,8 @@ class BlockSearch {
 
   // From numbers in the order of disparities to the registers of byte vector c; the chunk's last part begins
   // with number `last`.
-  static inline void load_lanes(const std::uint16_t* ordered, int c, int last, Reg& first, Reg& second) {
+  [[gnu::always_inline]] static inline void load_lanes(const std::uint16_t* ordered, int c, int last,
+                                                       Reg& first, Reg& second) {
     if constexpr (kEvenOdd) {
       first = V::load(ordered + c * kLanes);
       second = V::load(ordered + last + c * kLanes);
@@ -213,7 +214,8 @@ class BlockSearch {
     }
   }
 
-  static inline void mask_lanes(const std::uint16_t* mask, int c, int last, Reg& first, Reg& second) {
+  [[gnu::always_inline]] static inline void mask_lanes(const std::uint16_t* mask, int c, int last, Reg& first,
+                                                       Reg& second) {
     Reg first_mask, second_mask;
     load_lanes(mask, c, last, first_mask, second_mask);
     first = V::masked(first, first_mask);
@@ -221,7 +223,8 @@ class BlockSearch {
   }
 
   template <Keep kKeep>
-  static inline void keep(std::uint16_t* kept, int c, int last, Reg first, Reg second) {
+  [[gnu::always_inline]] static inline void keep(std::uint16_t* kept, int c, int last, Reg first,
+                                                 Reg second) {
     if constexpr (!kEvenOdd) {
       V::template store_in_order<kKeep == kAligned>(kept + begin_of(c, last), first, second);
     } else if constexpr (kKeep == kAligned) {
@@ -234,7 +237,9 @@ class BlockSearch {
   }
 
   // The first disparity of byte vector c where vectors follow one another.
-  static inline int begin_of(int c, int last) { return c == kVectors - 1 ? last : c * V::kBytes; }
+  [[gnu::always_inline]] static inline int begin_of(int c, int last) {
+    return c == kVectors - 1 ? last : c * V::kBytes;
+  }
 
   // Packed: the least sum in the low half, its lane in the high half. Else: the least sum in the low half,
   // its k in the high half.

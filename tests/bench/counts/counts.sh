@@ -143,6 +143,7 @@ cycles_of() {
         best = -1
         for (i = 0; i < n; ++i) {
           if (joined[i] || used[i] || !(first[i] in line_of)) continue
+          if (code[line_of[first[i]]] ~ /^rep/) continue  # counted for each byte, and no model knows it
           if (best < 0 || count[i] * times[i] > count[best] * times[best]) best = i
         }
         if (best < 0) break
