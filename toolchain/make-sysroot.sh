@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Unpacks what stereod is built against for a foreign machine: Debian's libraries and headers of that architecture, from
 # this machine's own apt sources, and a list of their packages, from which dependencies are told when packages are made.
+# Anybody may: apt works in a folder of its own, and nothing is installed.
 #   make-sysroot.sh ARCH [--again]        ARCH: arm64, armhf or i386; prints the folder, which is made only once, and again
 #                                         when other packages are wanted than the last time
-# It lies in $STEREOD_SYSROOTS, or in .cache/stereod/sysroots in the home directory.
+# It lies in .cache/stereod/sysroots in the home directory, where the presets of CMakePresets.json look for it.
 set -euo pipefail
 
 die() {
@@ -11,46 +12,55 @@ die() {
   exit 1
 }
 
+usage="usage: toolchain/make-sysroot.sh arm64|armhf|i386 [--again]"
 arch=${1:-}
-case $arch in
-  arm64 | armhf | i386) ;;
-  *) die "usage: toolchain/make-sysroot.sh arm64|armhf|i386 [--again]" ;;
-esac
-sysroots=${STEREOD_SYSROOTS:-$HOME/.cache/stereod/sysroots}
+[[ $arch == arm64 || $arch == armhf || $arch == i386 ]] || die "$usage"
+[[ $# -le 2 && ${2:---again} == --again ]] || die "$usage"
+[[ -n ${HOME:-} ]] || die "HOME names no folder, so there is none to keep the sysroot in."
+sysroots=$HOME/.cache/stereod/sysroots
 sysroot=$sysroots/$arch
-packages=libc6-dev,libstdc++-12-dev,liblcm-dev,libv4l-dev,libyaml-cpp-dev,libspdlog-dev,libcli11-dev
-packages+=,libturbojpeg0-dev,libjpeg62-turbo-dev,libpng-dev,libsystemd-dev,libgtest-dev,libgmock-dev,libcpp-httplib-dev
-if [[ -e $sysroot/.complete && $(cat "$sysroot/.complete") == "$packages" && ${2:-} != --again ]]; then
+packages=(libc6-dev libstdc++-12-dev liblcm-dev libv4l-dev libyaml-cpp-dev libspdlog-dev libcli11-dev libturbojpeg0-dev
+  libjpeg62-turbo-dev libpng-dev libsystemd-dev libgtest-dev libgmock-dev libcpp-httplib-dev)
+if [[ -e $sysroot/.complete && $(cat "$sysroot/.complete") == "${packages[*]}" && ${2:-} != --again ]]; then
   echo "$sysroot"
   exit 0
 fi
-command -v mmdebstrap >/dev/null || die "no mmdebstrap here: apt install mmdebstrap"
 
+# Everything is made beside the sysroot and takes its place at the end, so that one that is there outlives a failure.
 mkdir -p "$sysroots"
-sources=$sysroots/$arch.sources
-"$(dirname "${BASH_SOURCE[0]}")/apt-sources.sh" >"$sources" || die "no apt sources of Debian 12 in /etc/apt."
-rm -rf "$sysroot"
 log=$sysroots/$arch.log
-mmdebstrap --variant=extract --architectures="$arch" --include="$packages" \
-  --dpkgopt='path-exclude=/usr/share/man/*' --dpkgopt='path-exclude=/usr/share/locale/*' \
-  --extract-hook="mkdir -p '$sysroot.debs' && cp \"\$1\"/var/cache/apt/archives/*.deb '$sysroot.debs'" \
-  bookworm "$sysroot" "$sources" >"$log" 2>&1 || die "mmdebstrap failed; see $log"
+work=$(mktemp -d "$sysroots/$arch.XXXXXX")
+trap 'rm -rf "$work"' EXIT
+new=$work/root
+mkdir -p "$work"/apt/{etc/apt.conf.d,etc/preferences.d,etc/sources.list.d,state/lists/partial,cache/archives/partial} "$new"
+sources=$work/apt/etc/sources.list.d/debian
+"$(dirname "${BASH_SOURCE[0]}")/apt-sources.sh" >"$sources" || die "no apt sources of Debian 12 in /etc/apt."
+if grep -q '^Types:' "$sources"; then mv "$sources" "$sources.sources"; else mv "$sources" "$sources.list"; fi
 
-# Links that start at the root would lead out of the sysroot.
-find "$sysroot" -xtype l -lname '/*' | while read -r link; do
-  target=$(readlink "$link")
-  ln -snf "$(realpath -m --relative-to="$(dirname "$link")" "$sysroot$target")" "$link"
-done
+# An apt that knows nothing to be installed, so that it fetches all that the packages depend on.
+: >"$work/apt/state/status"
+foreign_apt() {
+  apt-get -q -y -o APT::Architecture="$arch" -o APT::Architectures="$arch" -o APT::Install-Recommends=false \
+    -o Dir::Etc::SourceList=/dev/null -o Dir::Etc::SourceParts="$work/apt/etc/sources.list.d" \
+    -o Dir::Etc::Preferences=/dev/null -o Dir::Etc::PreferencesParts="$work/apt/etc/preferences.d" \
+    -o Dir::State="$work/apt/state" -o Dir::State::status="$work/apt/state/status" -o Dir::Cache="$work/apt/cache" \
+    -o APT::Sandbox::User= -o Debug::NoLocking=true "$@" >>"$log" 2>&1
+}
+: >"$log"
+foreign_apt update || die "the lists of packages for $arch cannot be fetched: $(grep -m 1 '^[EW]:' "$log" || true) (all of it: $log)"
+foreign_apt --download-only install "${packages[@]}" ||
+  die "the packages for $arch cannot be fetched: $(grep -m 1 '^E:' "$log" || true) (all of it: $log)"
 
 # Unpacked packages are not known to dpkg. dpkg-shlibdeps looks libraries up by the path it found them under, which begins
 # with the sysroot, in the database that DPKG_ADMINDIR names.
-admin=$sysroot/var/lib/dpkg
-rm -rf "$admin"
+admin=$new/var/lib/dpkg
 mkdir -p "$admin/info" "$admin/updates" "$admin/triggers"
 echo 1 >"$admin/info/format"
 : >"$admin/status" && : >"$admin/diversions" && : >"$admin/statoverride" && echo "$arch" >"$admin/arch"
-for deb in "$sysroot.debs"/*.deb; do
-  control=$(mktemp -d)
+for deb in "$work"/apt/cache/archives/*.deb; do
+  dpkg-deb --fsys-tarfile "$deb" | tar -x -C "$new" --no-same-owner --no-same-permissions \
+    --exclude='./usr/share/man/*' --exclude='./usr/share/locale/*' || die "$(basename "$deb") cannot be unpacked; is the disk full?"
+  control=$work/control
   dpkg-deb -e "$deb" "$control"
   name=$(dpkg-deb -f "$deb" Package)
   key=$name
@@ -60,7 +70,13 @@ for deb in "$sysroot.debs"/*.deb; do
   { echo "Package: $name"; echo "Status: install ok installed"; sed '/^Package:/d' "$control/control"; echo; } >>"$admin/status"
   rm -rf "$control"
 done
-rm -rf "$sysroot.debs"
-rm "$sources"
-echo "$packages" >"$sysroot/.complete"
+
+# Links that start at the root would lead out of the sysroot.
+find "$new" -type l -lname '/*' | while read -r link; do
+  target=$(readlink "$link")
+  ln -snf "$(realpath -m --relative-to="$(dirname "$link")" "$new$target")" "$link"
+done
+echo "${packages[*]}" >"$new/.complete"
+rm -rf "$sysroot"
+mv "$new" "$sysroot"
 echo "$sysroot"

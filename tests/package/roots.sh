@@ -60,7 +60,7 @@ say "install"
 need_apt install "$daemon_deb"
 for file in /usr/bin/stereod /usr/bin/stereo-tap /usr/bin/stereo-match /usr/bin/stereo-view /etc/stereod/stereod.yaml \
   /lib/systemd/system/stereod.service /lib/systemd/system/stereod@.service /lib/systemd/system/stereod-multicast.service \
-  /lib/sysctl.d/60-stereod.conf /lib/udev/rules.d/60-stereod.rules /usr/share/man/man8/stereod.8.gz \
+  /lib/sysctl.d/10-stereod.conf /lib/udev/rules.d/60-stereod.rules /usr/share/man/man8/stereod.8.gz \
   /usr/share/man/man5/stereod.yaml.5.gz /usr/share/doc/stereod/bill-of-materials.spdx; do
   has "$file" "stereod is installed"
 done

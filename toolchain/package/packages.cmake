@@ -18,7 +18,7 @@ install(FILES
   DESTINATION /${unit_dir} COMPONENT stereod)
 install(FILES ${PROJECT_SOURCE_DIR}/systemd/sysusers.d/stereod.conf
   DESTINATION lib/sysusers.d COMPONENT stereod)
-install(FILES ${PROJECT_SOURCE_DIR}/etc/sysctl.d/60-stereod.conf DESTINATION lib/sysctl.d COMPONENT stereod)
+install(FILES ${PROJECT_SOURCE_DIR}/etc/sysctl.d/10-stereod.conf DESTINATION lib/sysctl.d COMPONENT stereod)
 install(FILES ${PROJECT_SOURCE_DIR}/etc/udev/60-stereod.rules DESTINATION /lib/udev/rules.d COMPONENT stereod)
 install(FILES ${PROJECT_SOURCE_DIR}/etc/demo.yaml
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/stereod/examples COMPONENT stereod)
@@ -150,16 +150,13 @@ set(CPACK_DEBIAN_STEREOD_PACKAGE_DEPENDS "systemd (>= 252) | systemd-standalone-
 set(CPACK_DEBIAN_STEREOD_PACKAGE_SUGGESTS "stereo-calibrate, liblcm-bin, liblcm-java, libjchart2d-java, default-jre")
 set(CPACK_COMPONENT_STEREOD_DESCRIPTION "stereo vision daemon for robot boards
 Reads two webcams, rectifies their pictures with a lookup table, matches them
-with a threaded SIMD block matcher and publishes rows of disparity over LCM to
-the other processes of the robot. With the tools stereo-tap (watch, save and
+with a threaded SIMD matcher, semi-global or by blocks, and publishes rows of
+disparity over LCM to the other processes of the robot. With the tools stereo-tap (watch, save and
 check what is published), stereo-view (a live page), stereod-spy (LCM's spy)
 and stereo-match (the same matcher on two files).")
 set(CPACK_DEBIAN_STEREOD_PACKAGE_CONTROL_EXTRA
-  ${package_dir}/stereod/conffiles ${package_dir}/stereod/postinst ${package_dir}/stereod/prerm
-  ${package_dir}/stereod/postrm)
-if(STEREOD_DEBIAN_ARCHITECTURE STREQUAL "i386")
-  list(APPEND CPACK_DEBIAN_STEREOD_PACKAGE_CONTROL_EXTRA ${package_dir}/stereod/i386/preinst)
-endif()
+  ${package_dir}/stereod/conffiles ${package_dir}/stereod/preinst ${package_dir}/stereod/postinst
+  ${package_dir}/stereod/prerm ${package_dir}/stereod/postrm)
 
 set(CPACK_DEBIAN_STEREO-CALIBRATE_PACKAGE_NAME stereo-calibrate)
 set(CPACK_DEBIAN_STEREO-CALIBRATE_PACKAGE_SHLIBDEPS ON)
