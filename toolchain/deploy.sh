@@ -24,8 +24,14 @@ ask='. /etc/os-release 2>/dev/null; echo "${ID:-unknown} ${VERSION_ID:-}"
   if [ "$(id -u)" = 0 ]; then echo root; elif sudo -n true 2>/dev/null; then echo sudo; else echo nobody; fi'
 errors=$(mktemp)
 trap 'rm -f "$errors"' EXIT
-answers=$(remote "$ask" 2>"$errors") ||
-  die "cannot log in at $host by ssh: $(tail -n 1 "$errors" | tr -d '\r' | sed 's,\.$,,'). Is it on, and does it have your key (ssh-copy-id $host)?"
+answers=$(remote "$ask" 2>"$errors") || {
+  why=$(tail -n 1 "$errors" | tr -d '\r' | sed 's,\.$,,')
+  [[ $why != *'Host key verification failed'* ]] ||
+    die "$host is not the machine that ssh knows by that name, or none it knows: log in once by hand (ssh $host) and see what it says."
+  die "cannot log in at $host by ssh: $why. Is it on, and does it have your key (ssh-copy-id $host)?"
+}
+# A shell that greets whoever comes does so first.
+answers=$(tail -n 3 <<<"$answers")
 { read -r system release && read -r arch && read -r rights; } <<<"$answers" || die "$host answers nothing that makes sense."
 
 [[ $system == debian && $release == 12 ]] ||
@@ -57,11 +63,17 @@ package=$(ls "$build"/stereod_*_"$arch".deb)
 
 echo "deploy: installing $(basename "$package"), $(($(stat -c %s "$package") / 1024)) KiB"
 folder=$(remote 'mktemp -d /tmp/stereod-XXXXXX') || die "no folder can be made in /tmp of $host; is its disk full?"
-remote "cat >$folder/stereod.deb" <"$package" || die "the package cannot be copied to $host; is its disk full?"
-# One's own configuration stays; a changed one of the package is laid beside it.
-remote "chmod 755 $folder && ${as_root}env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends --reinstall \
-  --allow-downgrades -o Dpkg::Options::=--force-confold install $folder/stereod.deb </dev/null; status=\$?; rm -rf $folder; exit \$status" \
-  >"$errors" 2>&1 || { cat "$errors" >&2 && die "apt-get on $host could not install it, see above."; }
+remote "cat >$folder/stereod.deb || { rm -rf $folder; false; }" <"$package" ||
+  die "the package cannot be copied to $host; is its disk full?"
+# One's own configuration stays; a changed one of the package is laid beside it. A board that has never fetched lists of packages
+# does so if it must.
+install="${as_root}env DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends --reinstall --allow-downgrades \
+  -o Dpkg::Options::=--force-confold install $folder/stereod.deb </dev/null"
+remote "chmod 755 $folder; $install || { ${as_root}apt-get -q update </dev/null && $install; }; status=\$?
+  rm -rf $folder; exit \$status" >"$errors" 2>&1 || {
+  cat "$errors" >&2
+  die "apt-get on $host could not install it, see above; what it depends on must be in the board's apt sources or installed before."
+}
 
 if ! remote 'test -d /run/systemd/system'; then
   echo "deploy: installed; systemd does not run on $host, so nothing was started."

@@ -38,7 +38,12 @@ std::string kind_of(const YAML::Node& node) {
 
 YAML::Node load_yaml_map(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw FileError(file.string() + ": there is no such file");
+  if (!std::filesystem::exists(file, error)) {
+    if (!error) throw FileError(file.string() + ": there is no such file");
+    throw FileError(
+        file.string() + ": cannot be reached (" + error.message() +
+        "); stereod must be allowed into its folder, and as a service it is kept out of home directories");
+  }
   if (std::filesystem::is_directory(file, error))
     throw FileError(file.string() + ": this is a folder, not a file");
   constexpr std::size_t kLargestFile = 1'000'000;  // bytes; a longer one is no configuration

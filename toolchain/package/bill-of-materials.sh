@@ -54,7 +54,8 @@ while [[ ${#queue[@]} -gt 0 ]]; do
   seen[$library]=yes
   path=$(path_of "$library")
   [[ -n $path ]] || continue
-  # A package may know the library with or without /usr.
+  # What an alternative leads to belongs to a package, its link to none. A package may know the library with or without /usr.
+  [[ -n $sysroot || $(readlink "$path") != /etc/alternatives/* ]] || path=$(readlink -f "$path")
   file=${path#"$sysroot"}
   libraries+=("$file" "/usr$file" "${file#/usr}")
   mapfile -t -O "${#queue[@]}" queue < <(needed_by "$path")
@@ -71,6 +72,7 @@ mkdir -p "$(dirname "$output")"
   printf 'DocumentName: %s-%s\nDocumentNamespace: urn:stereod:%s:%s\n' "$name" "$version" "$name" "$version"
   printf 'Creator: Tool: bill-of-materials.sh\nCreated: %s\n' \
     "$(date -u -d "@${SOURCE_DATE_EPOCH:-0}" +%Y-%m-%dT%H:%M:%SZ)"
+  printf 'Relationship: SPDXRef-DOCUMENT DESCRIBES SPDXRef-%s\n' "$name"
   printf '\nPackageName: %s\nSPDXID: SPDXRef-%s\nPackageVersion: %s\n' "$name" "$name" "$version"
   printf 'PackageDownloadLocation: NOASSERTION\nPackageLicenseDeclared: BSD-3-Clause\n'
   printf '%s\n' "${!packages[@]}" | LC_ALL=C sort | while read -r key; do
