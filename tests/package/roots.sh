@@ -114,14 +114,24 @@ say "install after a purge"
 need_apt install "$daemon_deb"
 has /etc/stereod/stereod.yaml "it is installed"
 
-say "stereo-calibrate, without stereod, as on a laptop"
+say "a person's account named stereod is neither taken nor deleted"
 need_apt purge stereod
+in_root useradd --uid 1000 --shell /bin/bash stereod
+if apt install "$daemon_deb"; then fail "it was installed over a person's account"; fi
+grep -q "is a person's (uid 1000)" "$work/apt.log" || { cat "$work/apt.log"; fail "it does not say why it cannot be installed"; }
+need_apt purge stereod
+in_root getent passwd stereod >/dev/null || fail "the person's account was deleted"
+in_root userdel stereod
+
+say "stereo-calibrate, without stereod, as on a laptop"
 need_apt install "$calibrate_deb"
 has /usr/share/man/man1/stereo-calibrate.1.gz "it is installed"
 in_root stereo-calibrate board --output /tmp/board.pdf >"$work/board.txt" 2>&1 || { cat "$work/board.txt"; fail "it draws no board"; }
 has /tmp/board.pdf "a board was drawn"
-grep -q '^PackageName: libopencv-calib3d' "$root/usr/share/doc/stereo-calibrate/bill-of-materials.spdx" ||
-  fail "its bill of materials lacks OpenCV"
+for library in libopencv-calib3d liblapack3; do  # the second by an alternative
+  grep -q "^PackageName: $library" "$root/usr/share/doc/stereo-calibrate/bill-of-materials.spdx" ||
+    fail "its bill of materials lacks $library"
+done
 need_apt purge stereo-calibrate
 left=$(cd "$root" && find etc usr lib var run -name '*stereo-calibrate*' ! -path 'var/log/*' ! -path 'var/cache/*')
 [[ -z $left ]] || fail "left behind: $left"
