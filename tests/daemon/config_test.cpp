@@ -377,6 +377,13 @@ TEST_F(ConfigFile, MissingFileAndFolderAreToldApart) {
             directory_.path().string() + ": this is a folder, not a file");
 }
 
+// Any reason but that there is none would do; a link to itself is one that root cannot pass either.
+TEST_F(ConfigFile, FileOutOfReachIsNotCalledMissing) {
+  const std::filesystem::path link = directory_.path() / "link.yaml";
+  std::filesystem::create_symlink("link.yaml", link);
+  EXPECT_EQ(file_error_of([&] { read_config(link); }).find(link.string() + ": cannot be reached ("), 0U);
+}
+
 // The values written in the comments of etc/stereod.yaml are the defaults: uncommented, they change nothing.
 TEST_F(ConfigFile, TheShippedFileSaysTheDefaults) {
   std::ifstream in(std::string(STEREOD_SOURCE_DIR) + "/etc/stereod.yaml");
