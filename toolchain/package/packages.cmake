@@ -150,10 +150,11 @@ set(CPACK_DEBIAN_STEREOD_PACKAGE_DEPENDS "systemd (>= 252) | systemd-standalone-
 set(CPACK_DEBIAN_STEREOD_PACKAGE_SUGGESTS "stereo-calibrate, liblcm-bin, liblcm-java, libjchart2d-java, default-jre")
 set(CPACK_COMPONENT_STEREOD_DESCRIPTION "stereo vision daemon for robot boards
 Reads two webcams, rectifies their pictures with a lookup table, matches them
-with a threaded SIMD matcher, semi-global or by blocks, and publishes rows of
-disparity over LCM to the other processes of the robot. With the tools stereo-tap (watch, save and
-check what is published), stereo-view (a live page), stereod-spy (LCM's spy)
-and stereo-match (the same matcher on two files).")
+with a threaded SIMD matcher, semi-global or by blocks, and publishes rows
+of disparity over LCM to the other processes of the robot. With the tools
+stereo-tap (watch, save and check what is published), stereo-view (a live
+page), stereod-spy (LCM's spy) and stereo-match (the same matcher on two
+files).")
 set(CPACK_DEBIAN_STEREOD_PACKAGE_CONTROL_EXTRA
   ${package_dir}/stereod/conffiles ${package_dir}/stereod/preinst ${package_dir}/stereod/postinst
   ${package_dir}/stereod/prerm ${package_dir}/stereod/postrm)
