@@ -29,7 +29,7 @@ fi
 # Everything is made beside the sysroot and takes its place at the end, so that one that is there outlives a failure.
 mkdir -p "$sysroots"
 log=$sysroots/$arch.log
-work=$(mktemp -d "$sysroots/$arch.XXXXXX")
+work=$(mktemp -d -p "$sysroots")
 trap 'rm -rf "$work"' EXIT
 new=$work/root
 mkdir -p "$work"/apt/{etc/apt.conf.d,etc/preferences.d,etc/sources.list.d,state/lists/partial,cache/archives/partial} "$new"
@@ -47,7 +47,7 @@ foreign_apt() {
     -o APT::Sandbox::User= -o Debug::NoLocking=true "$@" >>"$log" 2>&1
 }
 : >"$log"
-foreign_apt update || die "the lists of packages for $arch cannot be fetched: $(grep -m 1 '^[EW]:' "$log" || true) (all of it: $log)"
+foreign_apt update --error-on=any || die "the lists of packages for $arch cannot be fetched: $(grep -m 1 '^[EW]:' "$log" || true) (all of it: $log)"
 foreign_apt --download-only install "${packages[@]}" ||
   die "the packages for $arch cannot be fetched: $(grep -m 1 '^E:' "$log" || true) (all of it: $log)"
 

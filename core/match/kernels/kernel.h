@@ -84,8 +84,8 @@ struct RowChange {
 /// Memory of one strip. 64-byte aligned.
 struct Scratch {
   std::uint16_t* column_sums;  ///< [chunk][window + column of the strip][k]; the first `window` stay zero
-  /// [kBlockColumns][padded_disparities], by k, with 64 elements before and after. Those from the last
-  /// disparity on are never written and hold what is larger than any sum: Kernel::no_sum.
+  /// [kBlockColumns][padded_disparities], by k, with 64 elements before and after. Beyond the last disparity
+  /// they hold, from the beginning, what is larger than any sum: Kernel::no_sum.
   std::uint16_t* block_sums;
 };
 

@@ -84,7 +84,8 @@ struct VectorScalar {
   /// The biased number where the mask is 0 plus bias, the largest one where it is 0xFFFF plus bias.
   static Reg masked(Reg a, Reg mask) { return a | mask; }
 
-  /// The two halves of a vector of unsigned bytes that was widened, from and to 2·kBytes of memory in order.
+  /// The two halves of a vector of unsigned bytes that was widened, from and to 2·kBytes of memory in order;
+  /// kAligned: memory that is aligned as for store_aligned.
   template <bool kAligned>
   static void store_in_order(std::uint16_t* p, Reg first, Reg second) {
     store(p, first);

@@ -14,6 +14,7 @@ streams() {
 leave() {
   systemctl stop stereod stereod-multicast 2>/dev/null || true
   ip route replace 224.0.0.0/4 dev lo
+  sysctl -qw net.core.rmem_max=4194304
   rm -rf /etc/stereod
   echo "=== the journal"
   journalctl -u stereod -o short-monotonic
@@ -61,12 +62,19 @@ dpkg --remove stereod
 [[ -z $(ip route show 224.0.0.0/4) ]] || fail "removed, its route is still there"
 cmp mine.yaml /etc/stereod/stereod.yaml || fail "removing took the configuration"
 
-echo "=== install again, and purge while it runs"
+echo "=== install again; enabled, removed and installed once more"
 dpkg --install /share/stereod_*.deb
 [[ $(property ActiveState) == inactive ]] || fail "it has started itself"
-systemctl start stereod || fail "systemctl start stereod"
+systemctl enable --now stereod || fail "systemctl enable --now stereod"
+sysctl -qw net.core.rmem_max=33554432
+dpkg --remove stereod
+dpkg --install /share/stereod_*.deb
+[[ $(property ActiveState) == active ]] || fail "it was enabled before it was removed, and does not run again"
+[[ $(sysctl -n net.core.rmem_max) -eq 33554432 ]] || fail "the installation has lowered net.core.rmem_max"
+
+echo "=== purge while it runs"
 dpkg --purge stereod
 [[ ! -e /etc/stereod && ! -e /var/lib/stereod && ! -e /usr/bin/stereod ]] || fail "purged, something is left"
 ! getent passwd stereod || fail "purged, its user is left"
 [[ -z $(pgrep -x stereod) ]] || fail "purged, it still runs"
-shown "upgraded while it ran, removed, purged while it ran"
+shown "upgraded while it ran, removed, started again where it was enabled, purged while it ran"
