@@ -76,11 +76,12 @@ check_format() {
 # With the package of the very programs that were tested.
 virtual_machine() {
   cpack --preset release &&
-    bash tests/vm/run.sh --bin build/release/bin \
+    bash tests/vm/run.sh --bin build/release/bin ${ahead:+--pause "$ahead"} \
       --package build/release/stereod_*_"$(dpkg --print-architecture)".deb
 }
 
-# The virtual machine leaves a third of the CPUs' time: meanwhile the other suites are compiled, with that. A job with a
+# The virtual machine leaves a third of the CPUs' time: meanwhile the other suites are compiled, with that, except where
+# a scenario wants it all. A job with a
 # process group of its own, in the session that 'nice' weighs it in. What fails here fails again where it belongs.
 ahead=
 compile_ahead() {

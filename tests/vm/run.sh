@@ -2,10 +2,11 @@
 # Tests with a real kernel: Debian's kernel and systemd in a virtual machine, with webcams on uvcvideo. All scenarios run in
 # one machine, one after the other. Says what is skipped where QEMU or the packages cannot be had.
 #
-#   run.sh [--cpu MODEL] [--bin FOLDER] [--package FILE] [--seed N] [SCENARIO…]     all scenarios, if none is named
+#   run.sh [--cpu MODEL] [--bin FOLDER] [--package FILE] [--seed N] [--pause GROUP] [SCENARIO…]     all scenarios, if none is named
 #
 # --cpu: a CPU model of QEMU, for example Denverton; --bin: take the programs from there instead of building them; --package: the
-# stereod that is installed by the scenarios that install it; --seed: of what scenarios do at random, as an earlier run printed it.
+# stereod that is installed by the scenarios that install it; --seed: of what scenarios do at random, as an earlier run printed it;
+# --pause: a process group that stands still while a scenario runs whose head says that it wants the CPUs for itself.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 here=tests/vm
@@ -56,6 +57,11 @@ boot() {
   machine=$!
 }
 
+# Stops the process group of --pause while a scenario wants to be alone, and lets it go on.
+neighbour() {
+  if [[ -n $pause && $(head_of "$2" alone) == yes ]]; then kill -"$1" -- -"$pause" 2>/dev/null || true; fi
+}
+
 # Waits for a scenario's end, or the machine's, and says how it went.
 judge() {
   local name=$1 status= seconds=
@@ -83,6 +89,7 @@ cpu=Denverton  # an Atom: SSE4.2, no AVX
 built=
 package=
 seed=$RANDOM  # another each time
+pause=
 scenarios=()
 while [[ $# -gt 0 ]]; do
   case $1 in
@@ -90,7 +97,8 @@ while [[ $# -gt 0 ]]; do
     --bin) bin=${2:?--bin wants a folder} built=yes && shift ;;
     --package) package=$(realpath "${2:?--package wants a file}") && shift ;;
     --seed) seed=${2:?--seed wants a number} && shift ;;
-    -*) die "usage: tests/vm/run.sh [--cpu MODEL] [--bin FOLDER] [--package FILE] [--seed N] [SCENARIO…]" ;;
+    --pause) pause=${2:?--pause wants a process group} && shift ;;
+    -*) die "usage: tests/vm/run.sh [--cpu MODEL] [--bin FOLDER] [--package FILE] [--seed N] [--pause GROUP] [SCENARIO…]" ;;
     *) scenarios+=("$1") ;;
   esac
   shift
@@ -135,10 +143,12 @@ run_all() {
   local name
   fill_share
   boot "$allowed"
-  trap 'kill "$machine" 2>/dev/null || true' EXIT
+  trap 'kill "$machine" 2>/dev/null || true; [[ -z $pause ]] || kill -CONT -- -"$pause" 2>/dev/null || true' EXIT
   failed=()
   for name in "${scenarios[@]}"; do
+    neighbour STOP "$name"
     judge "$name" || failed+=("$name")
+    neighbour CONT "$name"
   done
   wait "$machine" || true
   trap - EXIT
