@@ -80,14 +80,14 @@ void LeftRightCheck::reject_by(Claim* claims, const RowWinners& winners, const M
   const std::uint16_t* index = winners.index.data() + winners.first;
   const std::uint32_t* cost = winners.cost.data() + winners.first;
   Claim* first = claims + winners.first - options.min_disparity;  // what k = 0 claims in the first column
-  const int count = winners.end - winners.first;
-  for (int i = 0; i < count; ++i) {
+  const std::ptrdiff_t count = winners.end - winners.first;
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
     const Claim claim = Claim{cost[i]} << kIndexBits | index[i];
     Claim& standing = first[i - index[i]];
     standing = claim < standing ? claim : standing;
   }
   const auto max_diff = static_cast<unsigned>(options.left_right_max_diff);
-  for (int i = 0; i < count; ++i) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
     const int standing = static_cast<int>(first[i - index[i]] & ((1U << kIndexBits) - 1));
     // |difference| > max_diff, in one comparison.
     const bool differs = static_cast<unsigned>(standing - index[i]) + max_diff > 2 * max_diff;

@@ -96,7 +96,7 @@ class SimdSearch final : public RowSearch {
         left_rows_(size(shape_.recompute ? shape_.window + kBatch : 1)),
         zeros_(shape_.recompute ? size(shape_.right_row_bytes()) : difference_row_bytes()),
         differences_(shape_.recompute ? 0 : size(shape_.window + 1) * difference_row_bytes()),
-        block_sums_(size(kernels::kBlockColumns) * size(shape_.padded_disparities()) + 2 * kBlockMargin) {
+        block_sums_(size(kernels::kBlockColumns) * size(shape_.block_step()) + 2 * kBlockMargin) {
     std::fill_n(block_sums_.data(), block_sums_.size(), kernel_.no_sum);
     for (const Strip& strip : strips_) {
       column_sums_.emplace_back(size(shape_.window + strip.columns()) * size(shape_.padded_disparities()));

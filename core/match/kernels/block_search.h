@@ -158,7 +158,7 @@ class BlockSearch {
     Place<V, kA, kRecompute> place(shape, strip, row, chunk, block.first);
     std::uint16_t* sums = sums_of(shape, strip, scratch, chunk, block.first);
     std::uint16_t* kept = scratch.block_sums + shape.first_of(chunk);
-    const int kept_step = shape.padded_disparities();
+    const int kept_step = shape.block_step();
     Reg window[2 * kVectors];
 #pragma GCC unroll 8
     for (int i = 0; i < 2 * kVectors; ++i) window[i] = V::load_aligned(running.sums + i * kLanes);

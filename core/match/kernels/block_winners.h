@@ -27,6 +27,7 @@ struct Best {
 template <typename V, Arithmetic kA>
 class BlockWinners {
   using Reg = typename V::Reg;
+  static constexpr int kLanes = V::kBytes / 2;
 
  public:
   // Keeps of found[] what is less than the best so far; the first has nothing to be less than. Whole blocks,
@@ -88,7 +89,7 @@ class BlockWinners {
     // First all three costs in one load, then apart in vectors.
     std::uint64_t three[kBlockColumns];
     const std::uint16_t* sums = scratch.block_sums;
-    const int step = shape.padded_disparities();
+    const int step = shape.block_step();
     for (int i = 0; i < count; ++i, sums += step) {
       __builtin_memcpy(&three[i], sums + best.k[i] - 1, sizeof(three[0]));
     }
@@ -100,46 +101,40 @@ class BlockWinners {
 
   static inline std::uint32_t cost_of(std::uint32_t sum) { return (sum ^ V::kBias) >> kShift; }
 
-  // Compares all kept sums of a column with the limit and looks whether any but the winner's and its
-  // neighbours' is below.
+  // Whether the least sum of a column but for the winner's and its neighbours' is at most the limit.
   static void write_ambiguous(const Shape& shape, const Scratch& scratch, const Block& block,
                               const Best& best, const Winners& out) {
     const auto ratio = static_cast<std::uint32_t>(shape.uniqueness_ratio);
-    std::uint32_t limits[kBlockColumns];  // as sums with the highest number of a group, without bias
+    std::uint16_t limits[kBlockColumns];  // as sums with the highest number of a group
     const int count = block.end - block.first;
     for (int i = 0; i < count; ++i) {
       const std::uint32_t cost = best.cost[i];
       const std::uint32_t limit = (cost + cost * ratio / 100) << kShift | kGroups;
-      limits[i] = limit < 0xFFFE ? limit : 0xFFFE;  // 0xFFFF is what cannot be searched
+      limits[i] = static_cast<std::uint16_t>((limit < 0xFFFE ? limit : 0xFFFE) ^ V::kBias);  // 0xFFFF: none
     }
-    const std::uint16_t* sums = scratch.block_sums;
-    const int chunks = shape.chunks;
-    const int chunk_size = shape.chunk;
+    std::uint16_t* sums = scratch.block_sums;
+    const int step = shape.block_step();
+    const int searched = shape.padded_disparities();
+    for (int i = 0; i < count; ++i) cover_winner(sums + i * step + best.k[i]);
     std::uint8_t* out_ambiguous = out.ambiguous + block.first - (shape.window - 1);
-    for (int i = 0; i < count; ++i) {
-      const Reg limit = V::broadcast16(static_cast<std::uint16_t>(limits[i] ^ V::kBias));
-      const int winner = best.k[i];
-      std::uint64_t rivals = 0;
-      for (int chunk = 0; chunk < chunks; ++chunk, sums += chunk_size) {
-        rivals |= at_most(sums, limit, chunk_size) & ~beside(winner - chunk * chunk_size);
+    for (int i = 0; i < count; ++i, sums += step) {
+      Reg least = V::min16(V::load_aligned(sums), V::load_aligned(sums + kLanes));
+      for (int k = 2 * kLanes; k < searched; k += 2 * kLanes) {
+        least = V::min16(least, V::load_aligned(sums + k));
+        least = V::min16(least, V::load_aligned(sums + k + kLanes));
       }
-      out_ambiguous[i] = rivals != 0 ? 1 : 0;
+      out_ambiguous[i] = V::any_at_most(least, V::broadcast16(limits[i]));
     }
   }
 
-  // A bit for each sum of a chunk.
-  static inline std::uint64_t at_most(const std::uint16_t* sums, Reg limit, int chunk_size) {
-    std::uint64_t bits = 0;
-    for (int k = 0; k < chunk_size; k += V::kBytes) bits |= std::uint64_t{V::at_most(sums + k, limit)} << k;
-    return bits;
-  }
-
-  // The bits k − 1, k and k + 1, as far as there are such.
-  static inline std::uint64_t beside(int k) {
-    constexpr std::uint64_t kOne = 1;
-    if (k >= 0 && k < 64) return kOne << k | kOne << k << 1 | kOne << k >> 1;
-    if (k == -1) return kOne;
-    return k == 64 ? kOne << 63 : 0;
+  // Puts "no sum" over the winner's and those before and after it: four at once, of which the last stays.
+  static inline void cover_winner(std::uint16_t* winner) {
+    constexpr std::uint64_t kThree = 0x0000'FFFF'FFFF'FFFF;
+    constexpr std::uint64_t kNoSums = 0x0001'0001'0001U * std::uint64_t{0xFFFF ^ V::kBias};
+    std::uint64_t four;
+    __builtin_memcpy(&four, winner - 1, sizeof(four));
+    four = (four & ~kThree) | kNoSums;
+    __builtin_memcpy(winner - 1, &four, sizeof(four));
   }
 };
 

@@ -8,6 +8,8 @@ namespace stereod::kernels {
 
 /// Columns searched in one go, so that the sums of all their disparities stay in the first-level cache.
 inline constexpr int kBlockColumns = 64;
+/// Elements between two columns of Scratch::block_sums: 32 bytes, so that columns stay aligned.
+inline constexpr int kBlockGap = 16;
 /// Disparities whose running sums fit in the registers; more are searched in chunks of at most this many.
 inline constexpr int kMaxChunk = 64;
 inline constexpr int kMaxChunks = 4;
@@ -39,6 +41,8 @@ struct Shape {
   int uniqueness_ratio;  ///< %; 0: Winners::ambiguous is not wanted
   int columns() const { return width - min_disparity; }
   int padded_disparities() const { return chunk * chunks; }
+  /// From a column of Scratch::block_sums to the next. What lies between two is written over at will.
+  int block_step() const { return padded_disparities() + kBlockGap; }
   /// The first disparity of a chunk. The last of several ends with the last disparity, and so has some in
   /// common with the one before it. A single one may be wider than the search; where its disparities lie then
   /// is said in column_sums.h.
@@ -84,7 +88,7 @@ struct RowChange {
 /// Memory of one strip. 64-byte aligned.
 struct Scratch {
   std::uint16_t* column_sums;  ///< [chunk][window + column of the strip][k]; the first `window` stay zero
-  /// [kBlockColumns][padded_disparities], by k, with 64 elements before and after. Beyond the last disparity
+  /// [kBlockColumns][block_step], by k, with 64 elements before and after. Beyond the last disparity
   /// they hold, from the beginning, what is larger than any sum: Kernel::no_sum.
   std::uint16_t* block_sums;
 };

@@ -79,13 +79,8 @@ struct VectorAvx2 : BytesX86<2> {
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
   }
 
-  static std::uint32_t at_most(const std::uint16_t* sums, Reg limit) {
-    const Reg first = load_aligned(sums);
-    const Reg second = load_aligned(sums + 16);
-    const Reg bytes = _mm256_packs_epi16(_mm256_cmpeq_epi16(min16(first, limit), first),
-                                         _mm256_cmpeq_epi16(min16(second, limit), second));
-    return static_cast<unsigned>(
-        _mm256_movemask_epi8(_mm256_permute4x64_epi64(bytes, _MM_SHUFFLE(3, 1, 2, 0))));
+  static bool any_at_most(Reg a, Reg limit) {
+    return _mm256_movemask_epi8(_mm256_cmpeq_epi16(min16(a, limit), a)) != 0;
   }
 
   // above + 2·row by one pmaddubsw, and below, of the pixels to the right less those to the left.

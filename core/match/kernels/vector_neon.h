@@ -89,15 +89,9 @@ struct VectorNeon {
     return least_of(found);
   }
 
-  static std::uint32_t at_most(const std::uint16_t* sums, Reg limit) {
-    static constexpr std::uint8_t kBits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
-    const uint8x8_t weights = vld1_u8(kBits);
-    const uint8x8_t first = vand_u8(vmovn_u16(vcleq_u16(load(sums), limit)), weights);
-    const uint8x8_t second = vand_u8(vmovn_u16(vcleq_u16(load(sums + 8), limit)), weights);
-    uint8x8_t bits = vpadd_u8(first, second);
-    bits = vpadd_u8(bits, bits);
-    bits = vpadd_u8(bits, bits);
-    return vget_lane_u16(vreinterpret_u16_u8(bits), 0);
+  static bool any_at_most(Reg a, Reg limit) {
+    const uint8x8_t bytes = vmovn_u16(vcleq_u16(a, limit));
+    return vget_lane_u64(vreinterpret_u64_u8(bytes), 0) != 0;
   }
 
   static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,

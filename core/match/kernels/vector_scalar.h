@@ -119,11 +119,11 @@ struct VectorScalar {
     return 0;
   }
 
-  /// A bit for each of kBytes biased numbers in memory, in order: is it at most the limit?
-  static std::uint32_t at_most(const std::uint16_t* sums, Reg limit) {
-    std::uint32_t bits = 0;
-    for (int k = 0; k < kBytes; ++k) bits |= static_cast<std::uint32_t>(sums[k] <= limit[0]) << k;
-    return bits;
+  /// Is any of the biased numbers at most the limit, which is the same in all lanes?
+  static bool any_at_most(Reg a, Reg limit) {
+    bool any = false;
+    for (int k = 0; k < kBytes / 2; ++k) any |= a[k] <= limit[0];
+    return any;
   }
 
   /// xsobel_row() of kBytes pixels; the rows have a pixel more on either side.

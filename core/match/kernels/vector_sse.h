@@ -90,12 +90,8 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
   }
 
-  static std::uint32_t at_most(const std::uint16_t* sums, Reg limit) {
-    const Reg first = load_aligned(sums);
-    const Reg second = load_aligned(sums + 8);
-    const Reg bytes = _mm_packs_epi16(_mm_cmpeq_epi16(min16(first, limit), first),
-                                      _mm_cmpeq_epi16(min16(second, limit), second));
-    return static_cast<unsigned>(_mm_movemask_epi8(bytes));
+  static bool any_at_most(Reg a, Reg limit) {
+    return _mm_movemask_epi8(_mm_cmpeq_epi16(min16(a, limit), a)) != 0;
   }
 
   // above + 2·row by one pmaddubsw, and below, of the pixels to the right less those to the left.
