@@ -113,10 +113,11 @@ struct VectorScalar {
   template <int kVectors, bool kEvenOddOrder>
   static std::uint32_t first_equal(const Reg* sums, Reg wanted) {
     static_assert(!kEvenOddOrder);
-    for (int k = 0; k < 16 * kVectors; ++k) {
-      if (sums[k / 8][k % 8] == wanted[0]) return static_cast<std::uint32_t>(k);
-    }
-    return 0;
+    constexpr int kLast = 2 * kVectors - 1;
+    Reg places = Reg{0, 1, 2, 3, 4, 5, 6, 7} + static_cast<std::uint16_t>(8 * kLast);
+    Reg first = broadcast16(0xFFFF);
+    for (int i = kLast; i >= 0; --i, places -= 8) first = sums[i] == wanted ? places : first;
+    return least_lane(first) & 0xFFFF;
   }
 
   /// Is any of the biased numbers at most the limit, which is the same in all lanes?
