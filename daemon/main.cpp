@@ -85,10 +85,12 @@ int main_with(int argc, char** argv) {
   std::string config_file = "/etc/stereod/stereod.yaml";
   bool check_only = false;
   app.add_option("--config", config_file, "the configuration")->capture_default_str();
-  app.add_flag("--check-config", check_only, "say whether the configuration can work, and end");
+  CLI::Option* check =
+      app.add_flag("--check-config", check_only, "say whether the configuration can work, and end");
   bool list_only = false;
   app.add_flag("--list-cameras", list_only,
-               "print every camera with its names, formats and controls, and end");
+               "print every camera with its names, formats and controls, and end")
+      ->excludes(check);
   app.set_version_flag("--version", std::string("stereod ") + kVersion);
   try {
     app.parse(argc, argv);

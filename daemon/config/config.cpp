@@ -190,7 +190,9 @@ void read_lcm(YamlSection section, LcmConfig& lcm) {
     section.fail("prefix", "found '" + lcm.prefix + "', allowed are 1 to " + std::to_string(kLongestPrefix) +
                                " letters, digits, '_', '-' and '.'");
   }
-  lcm.rows_per_message = section.integer("rows_per_message", lcm.rows_per_message, 1, 4096);
+  if (section.text("rows_per_message", "auto") != "auto") {
+    lcm.rows_per_message = section.integer("rows_per_message", 0, 1, 4096);
+  }
   lcm.spread = section.number("spread", lcm.spread, 0, 0.9);
   lcm.raw_images = section.flag("raw_images", lcm.raw_images);
   lcm.raw_images_per_second = section.number("raw_images_per_second", lcm.raw_images_per_second, 0.1, 60);

@@ -94,11 +94,11 @@ struct LeftImageConfig {
 };
 
 struct LcmConfig {
-  std::string url;                ///< empty: LCM_DEFAULT_URL, or this machine only
-  std::string prefix = "STEREO";  ///< of every channel
-  int rows_per_message = 16;
-  double spread = 0.3;      ///< share of the frame time over which a frame's rows are spread out
-  bool raw_images = false;  ///< publish what the cameras see
+  std::string url;                      ///< empty: LCM_DEFAULT_URL, or this machine only
+  std::string prefix = "STEREO";        ///< of every channel
+  std::optional<int> rows_per_message;  ///< nothing (auto): usual_rows_per_message()
+  double spread = 0.3;                  ///< share of the frame time over which a frame's rows are spread out
+  bool raw_images = false;              ///< publish what the cameras see
   double raw_images_per_second = 2;
   LeftImageConfig left_image;
 };

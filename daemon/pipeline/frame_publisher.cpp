@@ -11,13 +11,18 @@
 namespace stereod {
 namespace {
 
-constexpr int kHeaderAllowance = 256;         // channel name and the message's own fields
+constexpr int kHeaderAllowance = 256;  // channel name and the message's own fields
+constexpr int kRoom = kLargestDatagram - kHeaderAllowance;
+constexpr int kUsualRows = 16;                // fewer are lost more easily (docs/loss.md), more come later
 constexpr std::int64_t kBurstBytes = 96'000;  // fits a default socket buffer (212,992 B with its overhead)
 
 }  // namespace
 
+int usual_rows_per_message(const WireFormat& format, int width) {
+  return std::min(kUsualRows, kRoom / format.row_bytes(width));
+}
+
 std::optional<std::string> wire_problem(const WireFormat& format, Size published) {
-  constexpr int kRoom = kLargestDatagram - kHeaderAllowance;
   const int row_bytes = format.row_bytes(published.width);
   if (format.rows_per_message * row_bytes <= kRoom) return std::nullopt;
   return "found " + std::to_string(format.rows_per_message) + ", but rows of " + std::to_string(row_bytes) +

@@ -41,6 +41,10 @@ struct WireFormat {
   int invalid_value() const { return bytes_per_value() == 1 ? 0xFF : 0xFFFF; }
 };
 
+/// As many rows as a message is best given where nobody says otherwise: 16, or less if rows of this width
+/// leave no room for so many.
+int usual_rows_per_message(const WireFormat& format, int width);
+
 /// Why disparity images of this size (what of them is published) cannot go onto the wire like this, as a
 /// sentence; nothing if they can.
 std::optional<std::string> wire_problem(const WireFormat& format, Size published);

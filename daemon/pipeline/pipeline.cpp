@@ -14,14 +14,15 @@ namespace {
 
 constexpr double kLongestSpread = 0.1;  // s; slow cameras need no more, and a stop should not wait for it
 
-WireFormat wire_format(const Config& config) {
+WireFormat wire_format(const Config& config, Size published) {
   WireFormat format;
   format.prefix = config.lcm.prefix;
-  format.rows_per_message = config.lcm.rows_per_message;
   format.min_disparity = config.matcher.min_disparity;
   format.disparities = config.matcher.disparities;
   format.units_per_pixel = config.matcher.units_per_pixel();
   format.with_depth = config.publish.depth;
+  format.rows_per_message =
+      config.lcm.rows_per_message.value_or(usual_rows_per_message(format, published.width));
   const double fps = config.cameras.fps > 0 ? config.cameras.fps : 30;
   format.spread_s = std::min(config.lcm.spread / fps, kLongestSpread);
   return format;
@@ -55,7 +56,7 @@ SourceLayout layout_of(const LumaView& luma) { return {luma.size, luma.row_strid
 
 void check_pipeline(const Config& config, Size size) {
   const PublishedPixels pixels = published_pixels(config.publish, size);
-  if (const auto problem = wire_problem(wire_format(config), pixels.size()))
+  if (const auto problem = wire_problem(wire_format(config, pixels.size()), pixels.size()))
     throw std::invalid_argument(*problem);
   BandWorker(config.matcher, size, pixels.columns());
 }
@@ -71,7 +72,7 @@ RowFollowers Pipeline::make_followers(MessageBus& bus) {
   }
   if (config_.publish.depth) {
     followers.depth = &depth_publisher_.emplace(bus, prefix, *calibration_, config_.matcher, pixels_,
-                                                config_.lcm.rows_per_message);
+                                                wire_format(config_, pixels_.size()).rows_per_message);
   }
   if (config_.publish.cloud) {
     followers.cloud = &cloud_publisher_.emplace(bus, prefix, *calibration_, config_.matcher, pixels_,
@@ -96,7 +97,7 @@ Pipeline::Pipeline(const Config& config, std::optional<Calibration> calibration,
       size_(cameras_->rig().left->frame_size()),
       pixels_(published_pixels(config.publish, size_)),
       matcher_description_(describe(config)),
-      publisher_(bus, wire_format(config), size_, pixels_, make_followers(bus)),
+      publisher_(bus, wire_format(config, pixels_.size()), size_, pixels_, make_followers(bus)),
       pool_(config.worker_count()),
       alignment_monitor_(size_, config.matcher.min_disparity, config.matcher.disparities) {
   for (int worker = 0; worker < pool_.workers(); ++worker) {

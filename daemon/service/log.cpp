@@ -4,9 +4,11 @@
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -70,11 +72,20 @@ class UnblockedStderr final : public spdlog::sinks::base_sink<std::mutex> {
   long dropped_ = 0;
 };
 
+// systemd names the device and inode of the journal's socket, so that whoever writes into a file or a pipe of
+// a user's knows that this is not it.
+bool read_by_journal() {
+  const char* stream = std::getenv("JOURNAL_STREAM");
+  struct stat status {};
+  if (stream == nullptr || fstat(STDERR_FILENO, &status) != 0) return false;
+  return stream == std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
+}
+
 }  // namespace
 
 void set_up_log(const std::string& level) {
   auto logger = std::make_shared<spdlog::logger>("stereod", std::make_shared<UnblockedStderr>());
-  if (isatty(STDERR_FILENO) == 1) {
+  if (!read_by_journal()) {
     logger->set_pattern("%H:%M:%S.%e %l: %v");
   } else {
     auto formatter = std::make_unique<spdlog::pattern_formatter>();

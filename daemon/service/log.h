@@ -1,12 +1,12 @@
-// Logging to stderr, for a terminal or for the journal.
+// Logging to stderr, for a person or for the journal.
 #pragma once
 
 #include <string>
 
 namespace stereod {
 
-/// Sets spdlog's default logger up: on a terminal time, level and text; else (journald, a file) each line
-/// begins with systemd's priority, "<6>text", see sd-daemon(3). `level`: debug, info, warning or error.
+/// Sets spdlog's default logger up: time, level and text; where journald reads, systemd's priority and text,
+/// "<6>text", see sd-daemon(3). `level`: debug, info, warning or error.
 /// Nothing on the per-frame path logs.
 void set_up_log(const std::string& level);
 

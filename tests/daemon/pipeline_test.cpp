@@ -340,6 +340,19 @@ TEST(Pipeline, ARowBlockTooLargeForAMessageIsRefused) {
   }
 }
 
+TEST(Pipeline, WideRowsGetFewerToAMessage) {
+  WireFormat format;
+  format.disparities = 64;
+  format.units_per_pixel = 16;  // so two bytes a value, and a bit
+  EXPECT_EQ(usual_rows_per_message(format, 640), 16);
+  EXPECT_EQ(usual_rows_per_message(format, 1920), 65243 / (2 * 1920 + 240));
+  Config config = config_for("fast", 1);
+  config.lcm.rows_per_message.reset();
+  EXPECT_NO_THROW(check_pipeline(config, {1920, 1080}));
+  config.lcm.rows_per_message = 16;
+  EXPECT_THROW(check_pipeline(config, {1920, 1080}), std::invalid_argument);
+}
+
 TEST(Pipeline, FramesTooFarApartInTimeNeverMakeAPair) {
   Config config = config_for("fast", 1);
   config.cameras.fps = 100;

@@ -126,8 +126,9 @@ TEST_F(ServiceE2e, SighupTakesOverEverySettingWithoutLosingAFrame) {
   EXPECT_EQ(published.rows.at("OTHER_DISPARITY").front().row_count, 5);
   EXPECT_GT(published.rows.at("OTHER_DISPARITY").back().row_count, 5) << "the default again";
 
-  const std::size_t complaint = run.err.find("<3>the configuration was not taken over: " + file_.string() +
-                                             ":3: matcher.windw: is not a known key");
+  const std::size_t complaint =
+      run.err.find(" error: the configuration was not taken over: " + file_.string() +
+                   ":3: matcher.windw: is not a known key");
   EXPECT_NE(complaint, std::string::npos) << run.err;
   const auto taken_over = [&](std::size_t from) {
     int count = 0;

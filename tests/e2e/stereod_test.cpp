@@ -11,6 +11,7 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -178,7 +179,29 @@ TEST_F(StereodTest, InterruptEndsItCleanly) {
   stereod.send(SIGINT);
   const ProgramRun run = stereod.wait();
   EXPECT_EQ(run.status, 0);
-  EXPECT_NE(run.err.find("<6>SIGINT came; stopping"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find(" info: SIGINT came; stopping"), std::string::npos) << run.err;
+}
+
+TEST_F(StereodTest, ChecksTheConfigurationOrListsTheCameras) {
+  const ProgramRun run = run_stereod({"--check-config", "--list-cameras"});
+  EXPECT_EQ(run.status, 78);
+  EXPECT_NE(run.err.find("--check-config excludes --list-cameras"), std::string::npos) << run.err;
+  EXPECT_EQ(run.out, "");
+}
+
+// The journal wants to know how grave a line is, a person when it was written.
+TEST_F(StereodTest, OnlyTheJournalGetsPriorities) {
+  const auto complain_to = [&](const std::string& journal) {
+    return run_program("/bin/sh",
+                       {"-c", "JOURNAL_STREAM=" + journal + " exec \"$0\" --config gone.yaml",
+                        (kBin / "stereod").string()},
+                       directory_.path())
+        .err;
+  };
+  EXPECT_EQ(complain_to("$(stat -L -c %d:%i /proc/self/fd/2)").rfind("<3>gone.yaml: ", 0), 0u);
+  const std::regex at_a_time("^[0-9:.]+ error: gone.yaml: ");
+  EXPECT_TRUE(std::regex_search(complain_to("1:2"), at_a_time));
+  EXPECT_TRUE(std::regex_search(complain_to(""), at_a_time));
 }
 
 TEST_F(StereodTest, MissingCamerasAreAStateAndNoReasonToEnd) {
@@ -352,7 +375,7 @@ TEST_P(StereodBadStart, IsOneSentenceAndStatus78) {
     const ProgramRun run = run_stereod(arguments);
     EXPECT_EQ(run.status, 78) << run.err;
     EXPECT_NE(run.err.find(GetParam().complaint), std::string::npos) << run.err;
-    EXPECT_EQ(run.err.rfind("<3>", 0), 0u) << run.err;
+    EXPECT_TRUE(std::regex_search(run.err, std::regex("^[0-9:.]+ error: "))) << run.err;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   }
 }
