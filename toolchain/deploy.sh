@@ -15,7 +15,13 @@ host=${1:-}
 [[ -n $host && $host != -* ]] || die "usage: toolchain/deploy.sh [USER@]HOST [SSH-OPTION…]"
 shift
 command -v ssh >/dev/null || die "there is no ssh here: apt install openssh-client"
+# Runs a command there. answer: its last lines, LINES of them: a shell that greets whoever comes does so first.
 remote() { ssh -o BatchMode=yes -o ConnectTimeout=10 "${ssh_options[@]}" "$host" "$@"; }
+answer() {
+  local lines=$1 said
+  shift
+  said=$(remote "$@") && tail -n "$lines" <<<"$said"
+}
 ssh_options=("$@")
 
 # What the host is, one answer a line.
@@ -24,21 +30,21 @@ ask='. /etc/os-release 2>/dev/null; echo "${ID:-unknown} ${VERSION_ID:-}"
   if [ "$(id -u)" = 0 ]; then echo root; elif sudo -n true 2>/dev/null; then echo sudo; else echo nobody; fi'
 errors=$(mktemp)
 trap 'rm -f "$errors"' EXIT
-answers=$(remote "$ask" 2>"$errors") || {
+answers=$(answer 3 "$ask" 2>"$errors") || {
   why=$(tail -n 1 "$errors" | tr -d '\r' | sed 's,\.$,,')
   [[ $why != *'Host key verification failed'* ]] ||
     die "$host is not the machine that ssh knows by that name, or none it knows: log in once by hand (ssh $host) and see what it says."
   die "cannot log in at $host by ssh: $why. Is it on, and does it have your key (ssh-copy-id $host)?"
 }
-# A shell that greets whoever comes does so first.
-answers=$(tail -n 3 <<<"$answers")
 { read -r system release && read -r arch && read -r rights; } <<<"$answers" || die "$host answers nothing that makes sense."
 
 [[ $system == debian && $release == 12 ]] ||
   die "$host runs $system ${release:-of no version}, but the package is made for Debian 12, whose libraries it needs."
+here=$(dpkg --print-architecture)
 case $arch in
-  amd64) preset=package ;;
+  "$here") preset=package ;;
   arm64 | armhf | i386) preset=$arch ;;
+  amd64) die "$host is amd64, for which packages are made on amd64 only; this machine is $here." ;;
   none) die "$host has no dpkg, so nothing can be installed there." ;;
   *) die "$host is of the architecture $arch; packages are made for amd64, arm64, armhf and i386." ;;
 esac
@@ -62,7 +68,8 @@ rm -f "$build"/*.deb
 package=$(ls "$build"/stereod_*_"$arch".deb)
 
 echo "deploy: installing $(basename "$package"), $(($(stat -c %s "$package") / 1024)) KiB"
-folder=$(remote 'mktemp -d /tmp/stereod-XXXXXX') || die "no folder can be made in /tmp of $host; is its disk full?"
+folder=$(answer 1 'mktemp -d /tmp/stereod-XXXXXX') || die "no folder can be made in /tmp of $host; is its disk full?"
+[[ $folder =~ ^/tmp/stereod-[A-Za-z0-9]{6}$ ]] || die "$host answers '$folder' to mktemp, which makes no sense."
 remote "cat >$folder/stereod.deb || { rm -rf $folder; false; }" <"$package" ||
   die "the package cannot be copied to $host; is its disk full?"
 # One's own configuration stays; a changed one of the package is laid beside it. A board that has never fetched lists of packages
@@ -79,10 +86,16 @@ if ! remote 'test -d /run/systemd/system'; then
   echo "deploy: installed; systemd does not run on $host, so nothing was started."
   exit 0
 fi
+# What ran before was started anew by the package. A robot of several pairs has instances, whose cameras are not to be taken.
+units=$(answer 1 'if systemctl -q is-enabled stereod || systemctl -q is-active stereod; then pairs=
+  else pairs=$(systemctl --plain --no-legend --all list-units "stereod@*.service" | cut -d " " -f 1); fi
+  echo units: ${pairs:-stereod.service}' 2>/dev/null) || die "$host does not answer any more."
+units=${units#units: }
 started=0
-remote "${as_root}systemctl restart stereod" || started=1
-remote "${as_root}systemctl --no-pager --full status stereod; ${as_root}journalctl --no-pager -o cat -u stereod -n 20" || true
-[[ $started -eq 0 ]] || die "stereod does not start on $host; its own words are above, its configuration is /etc/stereod/stereod.yaml there."
-remote 'systemctl -q is-enabled stereod' ||
-  echo "deploy: it runs now, but not after the next start of $host: ssh $host ${as_root}systemctl enable stereod"
+remote "${as_root}systemctl start $units" || started=1
+remote "${as_root}systemctl --no-pager --full status $units
+  ${as_root}journalctl --no-pager -o cat $(printf -- '-u %s ' $units)-n 20" || true
+[[ $started -eq 0 ]] || die "stereod does not start on $host; its own words are above, its configuration is in /etc/stereod there."
+remote "systemctl -q is-enabled $units" >/dev/null ||
+  echo "deploy: it runs now, but not after the next start of $host: ssh $host ${as_root}systemctl enable $units"
 echo "deploy: done."

@@ -33,9 +33,8 @@ work=$(mktemp -d -p "$sysroots")
 trap 'rm -rf "$work"' EXIT
 new=$work/root
 mkdir -p "$work"/apt/{etc/apt.conf.d,etc/preferences.d,etc/sources.list.d,state/lists/partial,cache/archives/partial} "$new"
-sources=$work/apt/etc/sources.list.d/debian
-"$(dirname "${BASH_SOURCE[0]}")/apt-sources.sh" >"$sources" || die "no apt sources of Debian 12 in /etc/apt."
-if grep -q '^Types:' "$sources"; then mv "$sources" "$sources.sources"; else mv "$sources" "$sources.list"; fi
+"$(dirname "${BASH_SOURCE[0]}")/apt-sources.sh" >"$work/apt/etc/sources.list.d/debian.list" ||
+  die "no apt sources of Debian 12 in /etc/apt."
 
 # An apt that knows nothing to be installed, so that it fetches all that the packages depend on.
 : >"$work/apt/state/status"

@@ -67,6 +67,15 @@ small_enough() {
   echo "stereod: $(installed_size) bytes; allowed are $allowed"
   [[ $(installed_size) -le $allowed ]]
 }
+# That the bill of materials has every package that the package depends on.
+whole_bill() {
+  local deb library
+  deb=$(only_package "$arch" stereod)
+  dpkg-deb --fsys-tarfile "$deb" | tar -xO ./usr/share/doc/stereod/bill-of-materials.spdx >"$logs/$arch-bill.spdx" || return 1
+  for library in $(dpkg-deb -f "$deb" Depends | tr ',' '\n' | sed -nE 's/^ *(lib[^ ]+).*/\1/p'); do
+    grep -q "^PackageName: $library\$" "$logs/$arch-bill.spdx" || { echo "it lacks $library" && return 1; }
+  done
+}
 kib() { echo $((($(stat -c %s "$1") + 1023) / 1024)); }
 
 # One architecture; leaves its line of the table in $line.
@@ -90,6 +99,7 @@ one() {
   line="${line/| | $kernel/| $(kib "$(only_package "$arch" stereod)") KiB | $(installed_size) B | $kernel}"
   step size small_enough || status=1
   step dependencies same_dependencies || status=1
+  step bill whole_bill || status=1
   return "$status"
 }
 

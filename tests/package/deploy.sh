@@ -21,6 +21,9 @@ for user in pilot guest; do
   in_root chown -R "$user:" "/home/$user/.ssh"
 done
 echo 'pilot ALL=(ALL) NOPASSWD: ALL' >"$root/etc/sudoers.d/pilot"
+# His shell greets whoever comes, in words that a shell would take for all files.
+echo "echo '*** Welcome, *'" >"$root/home/pilot/.bashrc"
+touch "$root/home/pilot/mine"
 mkdir -p "$root/run/sshd"
 port=$((20000 + RANDOM % 10000))
 in_root /usr/sbin/sshd -D -o ListenAddress=127.0.0.1 -o Port=$port -o UsePAM=no &
@@ -53,6 +56,7 @@ rm "$root/usr/local/bin/dpkg"
 say "installs, without systemd"
 deploy pilot "$port" || { cat "$work/out"; fail "deploy.sh ended with an error"; }
 in_root stereod --version || fail "stereod was not installed"
+[[ -e $root/home/pilot/mine && ! -e $root/home/pilot/Welcome, ]] || fail "it has touched what is pilot's own"
 grep -q 'systemd does not run' "$work/out" || { cat "$work/out"; fail "it should say that no systemd runs"; }
 
 say "the same machine with systemd: installs again, starts, shows status and journal"

@@ -34,9 +34,9 @@ base() {
   [[ ! -f $cache/$name.tar ]] || return 0
   say "making the root '$name'"
   mkdir -p "$cache/archives"
-  toolchain/apt-sources.sh >"$cache/release.sources" || fail "no apt sources of Debian 12 here."
+  toolchain/apt-sources.sh >"$cache/release.list" || fail "no apt sources of Debian 12 here."
   mmdebstrap --variant=apt --include="$packages" --skip=cleanup/apt/lists --aptopt='Apt::Install-Recommends "false"' \
-    bookworm "$cache/$name.new.tar" "$cache/release.sources" >"$cache/$name.log" 2>&1 ||
+    bookworm "$cache/$name.new.tar" "$cache/release.list" >"$cache/$name.log" 2>&1 ||
     fail "mmdebstrap: see $cache/$name.log"
   mv "$cache/$name.new.tar" "$cache/$name.tar"
 }

@@ -60,7 +60,7 @@ say "install"
 need_apt install "$daemon_deb"
 for file in /usr/bin/stereod /usr/bin/stereo-tap /usr/bin/stereo-match /usr/bin/stereo-view /etc/stereod/stereod.yaml \
   /lib/systemd/system/stereod.service /lib/systemd/system/stereod@.service /lib/systemd/system/stereod-multicast.service \
-  /lib/sysctl.d/10-stereod.conf /lib/udev/rules.d/60-stereod.rules /usr/share/man/man8/stereod.8.gz \
+  /lib/sysctl.d/00-stereod.conf /lib/udev/rules.d/60-stereod.rules /usr/share/man/man8/stereod.8.gz \
   /usr/share/man/man5/stereod.yaml.5.gz /usr/share/doc/stereod/bill-of-materials.spdx; do
   has "$file" "stereod is installed"
 done
@@ -101,9 +101,14 @@ say "install again: the configuration is the one that was left"
 need_apt install /tmp/stereod_0.1.2.deb
 grep -q '^# my own line$' "$root/etc/stereod/stereod.yaml" || fail "the configuration was overwritten"
 
-say "purge"
+say "purge, with recordings on a disk of their own"
 mkdir -p "$root/var/lib/stereod"
+mount -t tmpfs tmpfs "$root/var/lib/stereod"
+touch "$root/var/lib/stereod/run.lcm"
 need_apt purge stereod
+lacks /var/lib/stereod/run.lcm "it is purged"
+umount "$root/var/lib/stereod"
+rmdir "$root/var/lib/stereod"
 in_root getent passwd stereod >/dev/null && fail "the user stereod has stayed"
 has /etc/stereod/calibration.yaml "a calibration is the user's own"
 rm -r "$root/etc/stereod"

@@ -24,6 +24,12 @@ done
     "--output FILE PROGRAM…" >&2
   exit 1
 }
+if [[ -n $sysroot ]]; then architecture=$(cat "$sysroot/var/lib/dpkg/arch"); else architecture=$(dpkg --print-architecture); fi
+
+die() {
+  echo "bill-of-materials: $*" >&2
+  exit 1
+}
 
 needed_by() { "$objdump" -p "$1" 2>/dev/null | sed -n 's/^ *NEEDED *//p'; }
 
@@ -42,8 +48,8 @@ query() { dpkg-query ${sysroot:+--admindir="$sysroot/var/lib/dpkg"} "$@" 2>/dev/
 # package version source
 describe_package() { query -W -f='${Package} ${Version} ${source:Package}\n' "$1" | head -n 1; }
 
-declare -A seen=() packages=()
-queue=() libraries=()
+declare -A seen=() at=() packages=()  # at: the library of each path it may be known by
+queue=()
 for program in "${programs[@]}"; do
   mapfile -t -O "${#queue[@]}" queue < <(needed_by "$program")
 done
@@ -53,33 +59,36 @@ while [[ ${#queue[@]} -gt 0 ]]; do
   [[ -z ${seen[$library]:-} ]] || continue
   seen[$library]=yes
   path=$(path_of "$library")
-  [[ -n $path ]] || continue
+  [[ -n $path ]] || die "$library is nowhere where the loader looks."
   # What an alternative leads to belongs to a package, its link to none. A package may know the library with or without /usr.
   [[ -n $sysroot || $(readlink "$path") != /etc/alternatives/* ]] || path=$(readlink -f "$path")
-  file=${path#"$sysroot"}
-  libraries+=("$file" "/usr$file" "${file#/usr}")
+  file=${path#"$sysroot"}  # a sysroot's lists name files as they lie there
+  for place in "$sysroot$file" "$sysroot/usr$file" "$sysroot${file#/usr}"; do at[$place]=$library; done
   mapfile -t -O "${#queue[@]}" queue < <(needed_by "$path")
 done
 while IFS= read -r line; do
-  library=${line##*/}
+  library=${at[${line#*: }]}
   [[ ${packages[${line%%: *}]:-} == *"$library "* ]] || packages[${line%%: *}]+="$library "
-done < <(query -S "${libraries[@]}" || true)  # an error if it knows one of the names only
+done < <(query -S "${!at[@]}" || true)  # an error if it knows one of the names only
+for library in "${!seen[@]}"; do
+  [[ " ${packages[*]} " == *" $library "* ]] || die "no package is known to have $library."
+done
 for package in $headers; do packages[$package]='(headers) '; done
 
 mkdir -p "$(dirname "$output")"
 {
   printf 'SPDXVersion: SPDX-2.3\nDataLicense: CC0-1.0\nSPDXID: SPDXRef-DOCUMENT\n'
-  printf 'DocumentName: %s-%s\nDocumentNamespace: urn:stereod:%s:%s\n' "$name" "$version" "$name" "$version"
+  printf 'DocumentName: %s-%s\nDocumentNamespace: urn:stereod:%s:%s:%s\n' "$name" "$version" "$name" "$version" "$architecture"
   printf 'Creator: Tool: bill-of-materials.sh\nCreated: %s\n' \
     "$(date -u -d "@${SOURCE_DATE_EPOCH:-0}" +%Y-%m-%dT%H:%M:%SZ)"
   printf 'Relationship: SPDXRef-DOCUMENT DESCRIBES SPDXRef-%s\n' "$name"
   printf '\nPackageName: %s\nSPDXID: SPDXRef-%s\nPackageVersion: %s\n' "$name" "$name" "$version"
-  printf 'PackageDownloadLocation: NOASSERTION\nPackageLicenseDeclared: BSD-3-Clause\n'
+  printf 'PackageDownloadLocation: NOASSERTION\nFilesAnalyzed: false\nPackageLicenseDeclared: BSD-3-Clause\n'
   printf '%s\n' "${!packages[@]}" | LC_ALL=C sort | while read -r key; do
     read -r package package_version source < <(describe_package "$key") || continue
     id=SPDXRef-${package//[^A-Za-z0-9.-]/-}
     printf '\nPackageName: %s\nSPDXID: %s\nPackageVersion: %s\n' "$package" "$id" "$package_version"
-    printf 'PackageDownloadLocation: NOASSERTION\nPackageSourceInfo: Debian source package %s\n' "$source"
+    printf 'PackageDownloadLocation: NOASSERTION\nFilesAnalyzed: false\nPackageSourceInfo: Debian source package %s\n' "$source"
     printf 'PackageComment: <text>%s</text>\n' "${packages[$key]% }"
     printf 'Relationship: SPDXRef-%s DEPENDS_ON %s\n' "$name" "$id"
   done

@@ -18,7 +18,7 @@ install(FILES
   DESTINATION /${unit_dir} COMPONENT stereod)
 install(FILES ${PROJECT_SOURCE_DIR}/systemd/sysusers.d/stereod.conf
   DESTINATION lib/sysusers.d COMPONENT stereod)
-install(FILES ${PROJECT_SOURCE_DIR}/etc/sysctl.d/10-stereod.conf DESTINATION lib/sysctl.d COMPONENT stereod)
+install(FILES ${PROJECT_SOURCE_DIR}/etc/sysctl.d/00-stereod.conf DESTINATION lib/sysctl.d COMPONENT stereod)
 install(FILES ${PROJECT_SOURCE_DIR}/etc/udev/60-stereod.rules DESTINATION /lib/udev/rules.d COMPONENT stereod)
 install(FILES ${PROJECT_SOURCE_DIR}/etc/demo.yaml
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/stereod/examples COMPONENT stereod)
@@ -102,12 +102,12 @@ endforeach()
 # What the programs of a package link, by library and version: written when they are installed.
 function(install_bill component headers)
   list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_FILE:\\1>" OUTPUT_VARIABLE files)
-  list(JOIN files " " files)
-  install(CODE "execute_process(COMMAND ${package_dir}/bill-of-materials.sh
+  list(JOIN files "\" \"" files)
+  install(CODE "execute_process(COMMAND \"${package_dir}/bill-of-materials.sh\"
     --name ${component} --version ${PROJECT_VERSION} --headers \"${headers}\"
     --sysroot \"${CMAKE_SYSROOT}\" --objdump \"${CMAKE_OBJDUMP}\"
     --output \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/doc/${component}/bill-of-materials.spdx\"
-    ${files} COMMAND_ERROR_IS_FATAL ANY)"
+    \"${files}\" COMMAND_ERROR_IS_FATAL ANY)"
     COMPONENT ${component})
 endfunction()
 install_bill(stereod "libcli11-dev libspdlog-dev" ${programs})
@@ -147,7 +147,7 @@ endif()
 set(CPACK_DEBIAN_STEREOD_PACKAGE_NAME stereod)
 set(CPACK_DEBIAN_STEREOD_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_STEREOD_PACKAGE_DEPENDS "systemd (>= 252) | systemd-standalone-sysusers, udev, iproute2")
-set(CPACK_DEBIAN_STEREOD_PACKAGE_SUGGESTS "stereo-calibrate, liblcm-bin, liblcm-java, libjchart2d-java, default-jre")
+set(CPACK_DEBIAN_STEREOD_PACKAGE_SUGGESTS "stereo-calibrate, v4l-utils, liblcm-bin, liblcm-java, libjchart2d-java, default-jre")
 set(CPACK_COMPONENT_STEREOD_DESCRIPTION "stereo vision daemon for robot boards
 Reads two webcams, rectifies their pictures with a lookup table, matches them
 with a threaded SIMD matcher, semi-global or by blocks, and publishes rows

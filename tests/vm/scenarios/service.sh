@@ -12,11 +12,11 @@ install_stereod() {
   install -t /usr/bin /share/bin/stereod
   install -m 644 -t /usr/lib/systemd/system /share/systemd/*.service
   install -m 644 -t /usr/lib/sysusers.d /share/systemd/sysusers.d/stereod.conf
-  install -m 644 -t /usr/lib/sysctl.d /share/etc/sysctl.d/10-stereod.conf
+  install -m 644 -t /usr/lib/sysctl.d /share/etc/sysctl.d/00-stereod.conf
   install -m 644 -t /usr/lib/udev/rules.d /share/etc/udev/60-stereod.rules
   systemd-sysusers
   systemctl daemon-reload
-  sysctl -q -p /usr/lib/sysctl.d/10-stereod.conf
+  sysctl -q -p /usr/lib/sysctl.d/00-stereod.conf
   udevadm control --reload
 }
 
