@@ -54,12 +54,13 @@ Shape shape_for(const MatcherOptions& options, int width, const Kernel& kernel) 
   shape.window = options.window;
   if (shape.arithmetic == Arithmetic::kWide) {
     shape.chunks = 1;
-    shape.chunk = options.disparities;
+    shape.chunk = (options.disparities + kernels::kLongestVector - 1) / kernels::kLongestVector *
+                  kernels::kLongestVector;
   } else {
     shape.chunks = (options.disparities + kernels::kMaxChunk - 1) / kernels::kMaxChunk;
     shape.chunk = kernel.chunk_for((options.disparities + shape.chunks - 1) / shape.chunks);
-    shape.recompute = resolve_cache_use(options.cache) == CacheUse::kSmall;
   }
+  shape.recompute = resolve_cache_use(options.cache) == CacheUse::kSmall;
   shape.neighbours = options.subpixel;
   shape.uniqueness_ratio = options.uniqueness_ratio;
   return shape;

@@ -13,6 +13,8 @@ inline constexpr int kBlockGap = 16;
 /// Disparities whose running sums fit in the registers; more are searched in chunks of at most this many.
 inline constexpr int kMaxChunk = 64;
 inline constexpr int kMaxChunks = 4;
+/// Bytes of the longest vector of any kernel.
+inline constexpr int kLongestVector = 32;
 /// Bytes after a row of image or prepared pixels that a kernel may read.
 inline constexpr int kRowMargin = 64;
 
@@ -36,8 +38,8 @@ struct Shape {
   int window;
   int chunk;  ///< disparities in a chunk: what Kernel::chunk_for says
   int chunks;
-  bool recompute;   ///< differences that leave the window are calculated again, not kept (never with kWide)
-  bool neighbours;  ///< Winners::before and after are wanted
+  bool recompute;        ///< differences that leave the window are calculated again, not kept
+  bool neighbours;       ///< Winners::before and after are wanted
   int uniqueness_ratio;  ///< %; 0: Winners::ambiguous is not wanted
   int columns() const { return width - min_disparity; }
   int padded_disparities() const { return chunk * chunks; }

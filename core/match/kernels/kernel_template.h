@@ -39,7 +39,7 @@ class Dispatch {
       case Arithmetic::kRaw:
         return add<Arithmetic::kRaw>(shape, strip, row, scratch);
       case Arithmetic::kWide:
-        return WideSearch<V>::template row<false>(shape, strip, row, scratch, {});
+        return wide<false>(shape, strip, row, scratch, {});
     }
   }
 
@@ -53,7 +53,7 @@ class Dispatch {
       case Arithmetic::kRaw:
         return search_by_size<Arithmetic::kRaw>(shape, strip, row, scratch, winners);
       case Arithmetic::kWide:
-        return WideSearch<V>::template row<true>(shape, strip, row, scratch, winners);
+        return wide<true>(shape, strip, row, scratch, winners);
     }
   }
 
@@ -62,6 +62,13 @@ class Dispatch {
   static void add(const Shape& shape, const Strip& strip, const RowChange& row, const Scratch& scratch) {
     shape.recompute ? add_chunks<V, kA, true>(shape, strip, row, scratch)
                     : add_chunks<V, kA, false>(shape, strip, row, scratch);
+  }
+
+  template <bool kSearch>
+  static void wide(const Shape& shape, const Strip& strip, const RowChange& row, const Scratch& scratch,
+                   const Winners& out) {
+    shape.recompute ? WideSearch<V>::template row<kSearch, true>(shape, strip, row, scratch, out)
+                    : WideSearch<V>::template row<kSearch, false>(shape, strip, row, scratch, out);
   }
 
   template <Arithmetic kA>

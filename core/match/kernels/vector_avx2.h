@@ -44,6 +44,19 @@ struct VectorAvx2 : BytesX86<2> {
   static Reg add16(Reg a, Reg b) { return _mm256_add_epi16(a, b); }
   static Reg sub16(Reg a, Reg b) { return _mm256_sub_epi16(a, b); }
   static Reg min16(Reg a, Reg b) { return _mm256_min_epu16(a, b); }
+
+  static Reg even_256(Reg a) { return _mm256_madd_epi16(a, _mm256_set1_epi32(0x100)); }
+  static Reg odd_256(Reg a) { return _mm256_madd_epi16(a, _mm256_set1_epi32(0x100'0000)); }
+  static Reg add32(Reg a, Reg b) { return _mm256_add_epi32(a, b); }
+  static Reg min32(Reg a, Reg b) { return _mm256_min_epi32(a, b); }
+  static Reg greater32(Reg a, Reg b) { return _mm256_cmpgt_epi32(a, b); }
+  static std::uint32_t least32(Reg a) {
+    __m128i least = _mm_min_epi32(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
+    least = _mm_min_epi32(least, _mm_unpackhi_epi64(least, least));
+    least = _mm_min_epi32(least, _mm_srli_epi64(least, 32));
+    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(least));
+  }
+
   static Reg masked(Reg a, Reg mask) { return _mm256_or_si256(a, mask); }
 
   // Unpacking left the lower and the upper eight bytes of each half of the vector.

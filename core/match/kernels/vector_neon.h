@@ -56,6 +56,28 @@ struct VectorNeon {
   static Reg add16(Reg a, Reg b) { return vaddq_u16(a, b); }
   static Reg sub16(Reg a, Reg b) { return vsubq_u16(a, b); }
   static Reg min16(Reg a, Reg b) { return vminq_u16(a, b); }
+
+  static Reg even_256(Reg a) {
+    return vreinterpretq_u16_s32(vshrq_n_s32(vshlq_n_s32(vreinterpretq_s32_u16(a), 16), 8));
+  }
+  static Reg odd_256(Reg a) {
+    return vreinterpretq_u16_s32(vshlq_n_s32(vshrq_n_s32(vreinterpretq_s32_u16(a), 16), 8));
+  }
+  static Reg add32(Reg a, Reg b) {
+    return vreinterpretq_u16_u32(vaddq_u32(vreinterpretq_u32_u16(a), vreinterpretq_u32_u16(b)));
+  }
+  static Reg min32(Reg a, Reg b) {
+    return vreinterpretq_u16_u32(vminq_u32(vreinterpretq_u32_u16(a), vreinterpretq_u32_u16(b)));
+  }
+  static Reg greater32(Reg a, Reg b) {
+    return vreinterpretq_u16_u32(vcgtq_u32(vreinterpretq_u32_u16(a), vreinterpretq_u32_u16(b)));
+  }
+  static std::uint32_t least32(Reg a) {
+    const uint32x4_t lanes = vreinterpretq_u32_u16(a);
+    const uint32x2_t pairs = vpmin_u32(vget_low_u32(lanes), vget_high_u32(lanes));
+    return vget_lane_u32(vpmin_u32(pairs, pairs), 0);
+  }
+
   static Reg masked(Reg a, Reg mask) { return vorrq_u16(a, mask); }
 
   template <bool kAligned>

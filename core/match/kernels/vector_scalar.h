@@ -21,6 +21,7 @@ struct VectorScalar {
   using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
   using SignedBytes [[gnu::vector_size(16)]] = std::int8_t;
   using Signed [[gnu::vector_size(16)]] = std::int16_t;
+  using Signed32 [[gnu::vector_size(16)]] = std::int32_t;
 
   static Reg load(const void* p) {
     Reg a;
@@ -81,6 +82,28 @@ struct VectorScalar {
   static Reg add16(Reg a, Reg b) { return a + b; }
   static Reg sub16(Reg a, Reg b) { return a - b; }
   static Reg min16(Reg a, Reg b) { return a < b ? a : b; }
+  /// 32-bit lanes: the even or the odd ones of signed 16-bit lanes, times 256; greater32 has all bits or
+  /// none; least32 is the least lane of all. Of numbers to compare, the bits are those of finite
+  /// floating-point numbers ≥ 2^−126, so that these may be compared instead.
+  static Reg even_256(Reg a) { return reinterpret_cast<Reg>(reinterpret_cast<Signed32>(a) << 16 >> 8); }
+  static Reg odd_256(Reg a) { return reinterpret_cast<Reg>(reinterpret_cast<Signed32>(a) >> 16 << 8); }
+  static Reg add32(Reg a, Reg b) {
+    return reinterpret_cast<Reg>(reinterpret_cast<Signed32>(a) + reinterpret_cast<Signed32>(b));
+  }
+  static Reg min32(Reg a, Reg b) {
+    const auto x = reinterpret_cast<Signed32>(a);
+    const auto y = reinterpret_cast<Signed32>(b);
+    return reinterpret_cast<Reg>(x < y ? x : y);
+  }
+  static Reg greater32(Reg a, Reg b) {
+    return reinterpret_cast<Reg>(reinterpret_cast<Signed32>(a) > reinterpret_cast<Signed32>(b));
+  }
+  static std::uint32_t least32(Reg a) {
+    const auto lanes = reinterpret_cast<Signed32>(a);
+    std::int32_t least = lanes[0];
+    for (int i = 1; i < 4; ++i) least = lanes[i] < least ? lanes[i] : least;
+    return static_cast<std::uint32_t>(least);
+  }
   /// The biased number where the mask is 0 plus bias, the largest one where it is 0xFFFF plus bias.
   static Reg masked(Reg a, Reg mask) { return a | mask; }
 

@@ -52,6 +52,23 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
 #endif
     return _mm_min_epi16(a, b);
   }
+
+  static Reg even_256(Reg a) { return _mm_madd_epi16(a, _mm_set1_epi32(0x100)); }
+  static Reg odd_256(Reg a) { return _mm_madd_epi16(a, _mm_set1_epi32(0x100'0000)); }
+  static Reg add32(Reg a, Reg b) { return _mm_add_epi32(a, b); }
+  static Reg min32(Reg a, Reg b) {
+#if defined(__SSE4_1__)
+    if constexpr (kSse41) return _mm_min_epi32(a, b);
+#endif
+    return _mm_castps_si128(_mm_min_ps(_mm_castsi128_ps(a), _mm_castsi128_ps(b)));
+  }
+  static Reg greater32(Reg a, Reg b) { return _mm_cmpgt_epi32(a, b); }
+  static std::uint32_t least32(Reg a) {
+    a = min32(a, _mm_unpackhi_epi64(a, a));
+    a = min32(a, _mm_shuffle_epi32(a, _MM_SHUFFLE(3, 3, 1, 1)));
+    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(a));
+  }
+
   static Reg masked(Reg a, Reg mask) { return kSse41 ? _mm_or_si128(a, mask) : _mm_max_epi16(a, mask); }
 
   template <bool kAligned>
