@@ -1,5 +1,8 @@
 #include "core/match/band_matcher.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -11,8 +14,12 @@ namespace stereod {
 
 std::unique_ptr<BandMatcher> make_band_matcher(const MatcherOptions& options, Size image) {
   if (const auto problem = problem_with(options)) throw std::invalid_argument(*problem);
-  if (image.width < 1 || image.height < 1)
-    throw std::invalid_argument("an image to match has at least one pixel");
+  constexpr int kLargestSide = std::numeric_limits<std::int16_t>::max();
+  if (std::min(image.width, image.height) < 1 || std::max(image.width, image.height) > kLargestSide) {
+    throw std::invalid_argument("an image to match has 1 to " + std::to_string(kLargestSide) +
+                                " pixels a side, not " + std::to_string(image.width) + "×" +
+                                std::to_string(image.height));
+  }
   if (options.implementation == Implementation::kSimd) resolve_isa(options.isa);
   if (options.method == Method::kBlock) return std::make_unique<BlockMatcher>(options, image);
   if (options.implementation == Implementation::kNaive)

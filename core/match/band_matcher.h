@@ -50,9 +50,9 @@ class BandMatcher {
   virtual std::size_t scratch_bytes() const noexcept = 0;
 };
 
-/// The matcher that the options ask for, for images of this size (≥ 1×1). Throws std::invalid_argument with
-/// the sentence of problem_with(), or with one that says what is missing if the CPU lacks the instruction
-/// set.
+/// The matcher that the options ask for, for images of this size (1 to 32767 pixels a side). Throws
+/// std::invalid_argument with the sentence of problem_with(), or with one that says what the size is, or what
+/// is missing if the CPU lacks the instruction set.
 std::unique_ptr<BandMatcher> make_band_matcher(const MatcherOptions& options, Size image);
 
 }  // namespace stereod

@@ -11,7 +11,8 @@
 
 namespace stereod {
 
-/// Matches pairs that lie in memory as a whole, as tools and tests have them. match() allocates nothing.
+/// Matches pairs that lie in memory as a whole, as tools and tests have them. match() allocates nothing, but
+/// for the naive semi-global matcher.
 class FrameMatcher {
  public:
   /// For images of size `image`. Throws what make_band_matcher() throws. The pool outlives the matcher.

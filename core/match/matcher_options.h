@@ -25,7 +25,8 @@ enum class Isa { kAuto, kScalar, kSsse3, kSse41, kAvx2, kNeon };
 /// What the simd implementation sacrifices to the caches. The result is the same.
 enum class CacheUse {
   kAuto,   ///< small on CPUs with a first-level data cache of 24 KiB or less, and on ARM; else large
-  kLarge,  ///< keeps the differences of all rows of the window, half a MiB at 640 px and 64 disparities
+  kLarge,  ///< keeps the differences of all rows of the window, half a MiB at 640 px, 64 disparities and
+           ///< window 11
   kSmall,  ///< calculates them twice, and works in strips of columns whose sums stay in a cache of 24 KiB
 };
 

@@ -15,6 +15,7 @@ namespace stereod {
 /// (union-find over runs; Rosenfeld and Pfaltz 1966 label components in this way).
 class SpeckleFilter {
  public:
+  /// For images of up to 32767 pixels a side.
   explicit SpeckleFilter(Size image);
   void apply(ImageView<std::int16_t> disparity, int max_size, int max_step) noexcept;
 

@@ -31,7 +31,8 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("RIGHT", flags.right, "right picture of the same size")->required();
   app.add_option("-o,--output", flags.output, "disparities: .pfm (Middlebury) or .png (16 bit, KITTI)");
   app.add_option("--color", flags.color, "a picture for a person, with a scale: .png");
-  app.add_option("--preset", flags.preset, "matcher settings: " + std::string(kMatcherPresets));
+  app.add_option("--preset", flags.preset,
+                 "matcher settings, also instead of all those in --config: " + std::string(kMatcherPresets));
   app.add_option("--config", flags.config,
                  "take the settings of matcher and rectification from a stereod.yaml");
   app.add_option("--disparities", flags.disparities, "how many disparities are searched, 1 to 256");

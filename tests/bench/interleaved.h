@@ -1,9 +1,10 @@
 // Timing that can be compared: contestants take turns within one run.
 //
 // On shared or clocked-down machines the same program is 1.5 times slower a minute later, so times of two
-// runs say nothing about each other. Here every round gives each contestant one turn, and a ratio is the
-// median, over the rounds that both took part in, of the ratio within the round. A ratio of contestants from
-// different runs cannot be asked for: results are looked up by name in the run that produced them.
+// runs say nothing about each other. Here every round gives each contestant one turn, and a ratio is
+// one of best times, or the median, over the rounds that both took part in, of the ratio within the round. A
+// ratio of contestants from different runs cannot be asked for: results are looked up by name in the run that
+// produced them.
 #pragma once
 
 #include <algorithm>

@@ -94,6 +94,8 @@ std::vector<MatcherCase> odd_cases() {
   list.add("d64 w13", vga, plain(64, 13));
   list.add("d64 w21", vga, plain(64, 21));
   list.add("d64 w31", vga, plain(64, 31));
+  list.add("raw w11", vga, without_prefilter(plain(64, 11)));
+  list.add("raw w21", vga, without_prefilter(plain(64, 21)));
   return list.take();
 }
 

@@ -255,6 +255,14 @@ TEST(MatcherCorners, RefusesOptionsThatCannotBe) {
   }
 }
 
+TEST(MatcherCorners, RefusesImagesThatAreTooLargeOrNone) {
+  const MatcherOptions options;
+  EXPECT_NO_THROW(make_band_matcher(options, {32767, 8}));
+  for (const Size size : {Size{32768, 8}, Size{8, 32768}, Size{0, 8}, Size{8, 0}}) {
+    EXPECT_THROW(make_band_matcher(options, size), std::invalid_argument) << size.width << "×" << size.height;
+  }
+}
+
 TEST(MatcherCorners, AutomaticChoiceIsAmongTheInstructionSetsThatRun) {
   const std::vector<Isa>& isas = isas_that_run();
   EXPECT_NE(std::find(isas.begin(), isas.end(), Isa::kAuto), isas.end());
@@ -265,8 +273,12 @@ TEST(MatcherCorners, AutomaticChoiceIsAmongTheInstructionSetsThatRun) {
 // that is shared by two with the small mode.
 TEST(MatcherCorners, ScratchMemoryIsSmall) {
   constexpr std::size_t kMiB = 1024 * 1024;
-  for (const char* preset : {"thesis", "fast", "robust"}) {
-    MatcherOptions options = *matcher_preset(preset);
+  std::vector<std::pair<std::string, MatcherOptions>> settings;
+  for (const char* preset : {"thesis", "fast", "robust"})
+    settings.emplace_back(preset, *matcher_preset(preset));
+  settings.emplace_back("thesis with 17 x 17", *matcher_preset("thesis"));
+  settings.back().second.window = 17;  // whose costs do not fit in 16 bits
+  for (auto& [preset, options] : settings) {
     options.cache = CacheUse::kLarge;
     const std::size_t large = make_band_matcher(options, {640, 480})->scratch_bytes();
     options.cache = CacheUse::kSmall;

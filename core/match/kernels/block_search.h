@@ -242,7 +242,7 @@ class BlockSearch {
   }
 
   // Packed: the least sum in the low half, its lane in the high half. Else: the least sum in the low half,
-  // its k in the high half.
+  // its place in the chunk in the high half.
   static inline void find_least(const Reg* sums, int at, std::uint32_t (*found)[kBlockColumns]) {
     if constexpr (kHalves == 2) {
 #pragma GCC unroll 2

@@ -56,6 +56,7 @@ class BlockWinners {
     count == kBlockColumns ? copy(best, kBlockColumns, out.index + at, out.cost + at)
                            : copy(best, count, out.index + at, out.cost + at);
     if (shape.neighbours) write_neighbours(shape, scratch, block, best, out);
+    // Last, because it spoils the kept sums.
     if (shape.uniqueness_ratio > 0) write_ambiguous(shape, scratch, block, best, out);
   }
 

@@ -3,8 +3,8 @@
 //
 // This header and those it includes are compiled with instructions that the running CPU may lack. Nothing in
 // them may come from a header whose inline functions other files use too (the linker keeps one copy of
-// those): no std:: functions, and every function that is not a template of V says so with a Tag or is
-// constexpr.
+// those): no std:: functions but memcpy, and every function that is not a template of V says so with a Tag or
+// is constexpr.
 #pragma once
 
 #include "core/match/interpolation.h"

@@ -132,7 +132,7 @@ struct VectorScalar {
 
   /// `sums` are 2·kVectors registers, the halves of each vector of bytes after each other; kEvenOddOrder: the
   /// first ones hold the lower disparities of the chunk, the second ones the upper, else every vector holds
-  /// a run of disparities. The lowest disparity whose sum equals `wanted`; there is one.
+  /// a run of disparities. The first place in the chunk whose sum equals `wanted`; there is one.
   template <int kVectors, bool kEvenOddOrder>
   static std::uint32_t first_equal(const Reg* sums, Reg wanted) {
     static_assert(!kEvenOddOrder);
