@@ -91,15 +91,16 @@ template <typename V, Arithmetic kA, bool kRecompute>
 struct ColumnUpdate {
   using Reg = typename V::Reg;
 
-  static inline Reg difference(Reg left, Reg right) {
+  [[gnu::always_inline]] static inline Reg difference(Reg left, Reg right) {
     return kA == Arithmetic::kRaw ? V::abs_diff_u8(left, right) : V::abs_diff_small(left, right);
   }
 
   /// Reads the sums at `sums`, of the chunk's bytes from `at` on, changes them, writes them back and leaves
   /// them in first and second. The last vector's pixels begin with disparity `last` of the chunk where it is
   /// the last part. `left` and `removed_left` are the place's pixels.
-  static inline void apply(const Place<V, kA, kRecompute>& place, int at, bool is_last, int last, Reg left,
-                           Reg removed_left, std::uint16_t* sums, Reg& first, Reg& second) {
+  [[gnu::always_inline]] static inline void apply(const Place<V, kA, kRecompute>& place, int at, bool is_last,
+                                                  int last, Reg left, Reg removed_left, std::uint16_t* sums,
+                                                  Reg& first, Reg& second) {
     // An interleaved row has its last part where it belongs.
     const std::uint8_t* right = place.right + (!even_odd_order<V>(kA) && is_last ? last : at);
     const Reg added = difference(left, V::load(right));

@@ -67,8 +67,15 @@ class Dispatch {
   template <bool kSearch>
   static void wide(const Shape& shape, const Strip& strip, const RowChange& row, const Scratch& scratch,
                    const Winners& out) {
-    shape.recompute ? WideSearch<V>::template row<kSearch, true>(shape, strip, row, scratch, out)
-                    : WideSearch<V>::template row<kSearch, false>(shape, strip, row, scratch, out);
+    if (shape.recompute) {
+      return WideSearch<V>::template row<kSearch, true, 0>(shape, strip, row, scratch, out);
+    }
+    // The usual number, where there is room for a function of its own.
+    if (!kOneSize && shape.chunk == kMaxChunk) {
+      return WideSearch<V>::template row < kSearch, false,
+             kOneSize ? 0 : kMaxChunk > (shape, strip, row, scratch, out);
+    }
+    WideSearch<V>::template row<kSearch, false, 0>(shape, strip, row, scratch, out);
   }
 
   template <Arithmetic kA>

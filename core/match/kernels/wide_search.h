@@ -15,13 +15,14 @@ class WideSearch {
   using Reg = typename V::Reg;
 
  public:
-  /// Kernel::add_row, and with kSearch Kernel::search_row, for kWide: one chunk, of whole vectors.
-  template <bool kSearch, bool kRecompute>
+  /// Kernel::add_row, and with kSearch Kernel::search_row, for kWide: one chunk, of whole vectors. kChunk:
+  /// how many disparities, where the compiler is to know; 0: Shape::chunk.
+  template <bool kSearch, bool kRecompute, int kChunk>
   static void row(const Shape& shape, const Strip& strip, const RowChange& change, const Scratch& scratch,
                   const Winners& out) {
     Windows windows;
     if constexpr (kSearch) start(shape, strip.first, windows);
-    const int padded = shape.chunk;
+    const int padded = kChunk > 0 ? kChunk : shape.chunk;
     const std::ptrdiff_t back = static_cast<std::ptrdiff_t>(shape.window) * padded;
     std::uint16_t* sums = sums_of(shape, strip, scratch, 0, strip.first);
     Place<V, Arithmetic::kRaw, kRecompute> place(shape, strip, change, 0, strip.first);
@@ -30,6 +31,7 @@ class WideSearch {
       const Reg removed_left = kRecompute ? V::broadcast8(*place.removed_left) : left;
       if constexpr (kSearch) let_in(column - shape.window + 1, shape, windows);
       Reg least = V::broadcast16(0x7F7F);
+#pragma GCC unroll 2
       for (int at = 0; at < padded; at += V::kBytes) {
         Reg first, second;
         ColumnUpdate<V, Arithmetic::kRaw, kRecompute>::apply(place, at, false, 0, left, removed_left,
