@@ -58,9 +58,11 @@ others() {
 }
 
 sources=$({ paragraphs && lines; } | awk '!seen[$0]++')
-known=$(others)
+own=$sources
 while IFS= read -r uri; do
-  [[ -z $uri ]] || sources=$(awk -v uri="${uri%/}" '{ for (i = 1; i <= NF; ++i) if ($i == uri || $i == uri "/") next; print }' <<<"$sources")
-done <<<"$known"
+  [[ -z $uri ]] || own=$(awk -v uri="${uri%/}" '{ for (i = 1; i <= NF; ++i) if ($i == uri || $i == uri "/") next; print }' <<<"$own")
+done < <(others)
+# A mirror of Debian may call itself by another name; where nothing else is there, it is meant.
+[[ -z $own ]] || sources=$own
 [[ -n $sources ]] || exit 1
 printf '%s\n' "$sources"

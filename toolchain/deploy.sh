@@ -90,6 +90,7 @@ fi
 units=$(answer 1 'if systemctl -q is-enabled stereod || systemctl -q is-active stereod; then pairs=
   else pairs=$(systemctl --plain --no-legend --all list-units "stereod@*.service" | cut -d " " -f 1); fi
   echo units: ${pairs:-stereod.service}' 2>/dev/null) || die "$host does not answer any more."
+[[ $units == 'units: '* ]] || die "$host answers '$units' to systemctl, which makes no sense."
 units=${units#units: }
 started=0
 remote "${as_root}systemctl start $units" || started=1

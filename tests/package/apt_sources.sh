@@ -39,6 +39,19 @@ Components: stable
 END
 expect 'lines beside a paragraph of somebody else' "$lines"
 
+# Whose packages apt has fetched lists of, it knows. Here an apt-get that knows as much as the test wants.
+mkdir "$work/bin"
+knows() {
+  printf '#!/bin/sh\nprintf "%%s\\n" %s\n' "$(printf "'%s' " "$@")" >"$work/bin/apt-get"
+  chmod +x "$work/bin/apt-get"
+}
+PATH=$work/bin:$PATH
+knows 'Debian http://one.example/debian/' 'Some One Else http://two.example/debian/' '$(ORIGIN) http://three.example/debian/'
+expect 'one of them is of somebody else' "$(sed 2d <<<"$lines")"
+knows 'A http://one.example/debian/' 'B http://two.example/debian/' 'C http://three.example/debian/'
+expect 'only mirrors by other names' "$lines"
+knows
+
 rm "$work/sources.list"
 cat >"$work/sources.list.d/debian.sources" <<'END'
 types: deb deb-src

@@ -81,6 +81,19 @@ deploy pilot 22 in_its_network || { cat "$work/out"; fail "deploy.sh ended with 
 [[ $(property MainPID) -ne $pid && $(property ActiveState) == active ]] || fail "it was not started anew"
 ! grep -q 'not after the next start' "$work/out" || fail "it is enabled, and deploy.sh says it is not"
 
+say "a robot whose pairs have instances: they are started anew, no other service takes their cameras"
+in_booted systemctl --quiet disable --now stereod
+printf 'cameras: {source: synthetic, fps: 5}\nlcm: {prefix: FRONT}\n' >"$root/etc/stereod/front.yaml"
+in_booted systemctl --quiet enable --now stereod@front
+front() { in_booted systemctl show --property "$1" --value stereod@front.service; }
+pid=$(front MainPID)
+deploy pilot 22 in_its_network || { cat "$work/out"; fail "deploy.sh ended with an error"; }
+[[ $(front MainPID) -ne $pid && $(front ActiveState) == active ]] || fail "stereod@front was not started anew"
+[[ $(property ActiveState) == inactive ]] || fail "stereod was started beside stereod@front"
+grep -q 'stereod@front.service' "$work/out" || { cat "$work/out"; fail "it should show stereod@front"; }
+in_booted systemctl --quiet disable --now stereod@front
+in_booted systemctl --quiet enable --now stereod
+
 say "a configuration that can never work"
 echo 'matchr: {}' >>"$root/etc/stereod/stereod.yaml"
 ! deploy pilot 22 in_its_network || { cat "$work/out"; fail "deploy.sh should end with an error"; }
