@@ -11,6 +11,12 @@ namespace {
 
 std::size_t at(int x) { return static_cast<std::size_t>(x); }
 
+std::int16_t least_of(const std::int16_t* values, int count) {
+  std::int16_t least = values[0];
+  for (int i = 1; i < count; ++i) least = std::min(least, values[i]);
+  return least;
+}
+
 struct Baseline {};
 
 template <typename Real>
@@ -59,76 +65,111 @@ void reject_right(const RowWinners& winners, int min_disparity, const std::uint8
   }
 }
 
-LeftRightCheck::LeftRightCheck(int width) : claims_(at(width)) {}
+LeftRightCheck::LeftRightCheck(int width)
+    : claims_(at(width + kUnroll)),
+      standing_(at(width + kMostIndices)),
+      standing_index_(at(width + kUnroll)) {}
 
 void LeftRightCheck::reject(const RowWinners& winners, const MatcherOptions& options,
                             std::int16_t* out) noexcept {
   if (options.cost == Cost::kSad) {  // costs stay below 2^18, k below 2^8
-    reject_by(reinterpret_cast<std::uint32_t*>(claims_.data()), winners, options, out);
+    reject_by(reinterpret_cast<std::uint32_t*>(claims_.data()),
+              reinterpret_cast<std::uint32_t*>(standing_.data()), winners, options, out);
   } else {
-    reject_by(claims_.data(), winners, options, out);
+    reject_by(claims_.data(), standing_.data(), winners, options, out);
   }
 }
 
 // A claim is cost and k in one number. Of the left pixels that claim the same right one, the lowest x has the
-// lowest k, so the least number is the claim that stands.
+// lowest k, so the least number is the claim that stands. Standing claims lie from right to left, so that k
+// is added to a column's place as it is. The two loops that no vector can do are unrolled, do nothing else,
+// and end with claims that change nothing.
 template <typename Claim>
-void LeftRightCheck::reject_by(Claim* claims, const RowWinners& winners, const MatcherOptions& options,
-                               std::int16_t* out) {
-  constexpr int kIndexBits = 8;
-  std::fill_n(claims, claims_.size(), std::numeric_limits<Claim>::max());
+void LeftRightCheck::reject_by(Claim* claims, Claim* standing, const RowWinners& winners,
+                               const MatcherOptions& options, std::int16_t* out) {
+  constexpr Claim kNone = std::numeric_limits<Claim>::max();
   const std::uint16_t* index = winners.index.data() + winners.first;
   const std::uint32_t* cost = winners.cost.data() + winners.first;
-  Claim* first = claims + winners.first - options.min_disparity;  // what k = 0 claims in the first column
   const std::ptrdiff_t count = winners.end - winners.first;
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const Claim claim = Claim{cost[i]} << kIndexBits | index[i];
-    Claim& standing = first[i - index[i]];
-    standing = claim < standing ? claim : standing;
+  std::fill_n(standing, count + kMostIndices, kNone);
+  for (std::ptrdiff_t i = 0; i < count; ++i) claims[i] = Claim{cost[i]} * kMostIndices | index[i];
+  std::fill_n(claims + count, kUnroll, kNone);
+
+  Claim* const first = standing + count - 1;  // what k = 0 claims in the first column
+  const auto index_of = [](Claim claim) { return static_cast<std::ptrdiff_t>(claim % kMostIndices); };
+  Claim* place = first;
+  for (std::ptrdiff_t i = 0; i < count; i += kUnroll, place -= kUnroll) {
+#pragma GCC unroll 8
+    for (std::ptrdiff_t j = 0; j < kUnroll; ++j) {
+      const Claim claim = claims[i + j];
+      Claim& other = place[index_of(claim) - j];
+      other = claim < other ? claim : other;
+    }
   }
-  const auto max_diff = static_cast<unsigned>(options.left_right_max_diff);
+  place = first;
+  std::uint16_t* standing_index = standing_index_.data();
+  for (std::ptrdiff_t i = 0; i < count; i += kUnroll, place -= kUnroll) {
+#pragma GCC unroll 8
+    for (std::ptrdiff_t j = 0; j < kUnroll; ++j) {
+      standing_index[i + j] = static_cast<std::uint16_t>(index_of(place[index_of(claims[i + j]) - j]));
+    }
+  }
+
+  const auto max_diff = static_cast<std::int16_t>(options.left_right_max_diff);
+  std::int16_t* result = out + winners.first;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const int standing = static_cast<int>(first[i - index[i]] & ((1U << kIndexBits) - 1));
-    // |difference| > max_diff, in one comparison.
-    const bool differs = static_cast<unsigned>(standing - index[i]) + max_diff > 2 * max_diff;
-    out[winners.first + i] = static_cast<std::int16_t>(out[winners.first + i] | -static_cast<int>(differs));
+    const auto difference = static_cast<std::int16_t>(std::abs(standing_index[i] - index[i]));
+    result[i] = static_cast<std::int16_t>(result[i] | -static_cast<int>(difference > max_diff));
   }
 }
 
-std::size_t LeftRightCheck::scratch_bytes() const noexcept { return claims_.size() * sizeof(claims_[0]); }
+std::size_t LeftRightCheck::scratch_bytes() const noexcept {
+  return (claims_.size() + standing_.size()) * sizeof(claims_[0]) +
+         standing_index_.size() * sizeof(standing_index_[0]);
+}
 
-TextureCheck::TextureCheck(int width) : column_sums_(at(width)) {}
+TextureCheck::TextureCheck(int width) : width_(width), column_sums_(at(width + kBlock)) {}
 
 void TextureCheck::reset() noexcept { column_sums_.fill_zero(); }
 
 void TextureCheck::add_row(const std::uint8_t* added, const std::uint8_t* removed, int cap) noexcept {
-  const int width = static_cast<int>(column_sums_.size());
-  std::uint16_t* sums = column_sums_.data();
+  std::int16_t* sums = column_sums_.data();
   const auto middle = static_cast<std::int16_t>(cap);
   const auto gradient = [middle](std::uint8_t value) {
-    return static_cast<std::uint16_t>(std::abs(static_cast<std::int16_t>(value - middle)));
+    return static_cast<std::int16_t>(std::abs(static_cast<std::int16_t>(value - middle)));
   };
   if (removed == nullptr) {
-    for (int x = 0; x < width; ++x) sums[x] = static_cast<std::uint16_t>(sums[x] + gradient(added[x]));
+    for (int x = 0; x < width_; ++x) sums[x] = static_cast<std::int16_t>(sums[x] + gradient(added[x]));
   } else {
-    for (int x = 0; x < width; ++x) {
-      sums[x] = static_cast<std::uint16_t>(sums[x] + gradient(added[x]) - gradient(removed[x]));
+    for (int x = 0; x < width_; ++x) {
+      sums[x] = static_cast<std::int16_t>(sums[x] + gradient(added[x]) - gradient(removed[x]));
     }
   }
 }
 
+// A block of windows passes whole where each of its columns has enough, and mostly they have. Elsewhere each
+// window's sum is made anew from its columns, eight windows to a vector: less work than one sum that slides.
 void TextureCheck::reject(const RowWinners& winners, const MatcherOptions& options,
                           std::int16_t* out) noexcept {
-  const int r = options.window / 2;
-  const std::uint16_t* leaving = column_sums_.data() + winners.first - r;
-  const std::uint16_t* coming = leaving + options.window - 1;
   const int threshold = options.texture_threshold;
-  int sum = 0;
-  for (int i = 0; i < options.window - 1; ++i) sum += leaving[i];
-  for (int x = winners.first; x < winners.end; ++x) {
-    sum += *coming++;
-    if (sum < threshold) out[x] = kInvalidDisparity;
-    sum -= *leaving++;
+  const int enough = (threshold + options.window - 1) / options.window;  // of each of `window` columns
+  for (int x = winners.first; x < winners.end; x += kBlock) {
+    const int count = std::min(kBlock, winners.end - x);
+    const std::int16_t* columns = column_sums_.data() + x - options.window / 2;
+    if (least_of(columns, count + options.window - 1) < enough) {
+      reject_block(columns, options.window, threshold, count, out + x);
+    }
+  }
+}
+
+void TextureCheck::reject_block(const std::int16_t* columns, int window, int threshold, int count,
+                                std::int16_t* out) {
+  std::uint16_t sums[kBlock] = {};
+  for (int i = 0; i < window; ++i) {
+    for (int j = 0; j < kBlock; ++j) sums[j] = static_cast<std::uint16_t>(sums[j] + columns[i + j]);
+  }
+  for (int j = 0; j < count; ++j) {
+    out[j] = static_cast<std::int16_t>(out[j] | -static_cast<int>(sums[j] < threshold));
   }
 }
 

@@ -32,10 +32,16 @@ class LeftRightCheck {
   std::size_t scratch_bytes() const noexcept;
 
  private:
-  template <typename Claim>
-  void reject_by(Claim* claims, const RowWinners& winners, const MatcherOptions& options, std::int16_t* out);
+  static constexpr int kMostIndices = 256;  // k fits in 8 bits
+  static constexpr int kUnroll = 8;
 
-  AlignedBuffer<std::uint64_t> claims_;  // by column of the right image
+  template <typename Claim>
+  void reject_by(Claim* claims, Claim* standing, const RowWinners& winners, const MatcherOptions& options,
+                 std::int16_t* out);
+
+  AlignedBuffer<std::uint64_t> claims_;          // by column of the left image
+  AlignedBuffer<std::uint64_t> standing_;        // by column of the right image, from right to left
+  AlignedBuffer<std::uint16_t> standing_index_;  // k of the claim that stands where each left column claims
 };
 
 /// Invalidates pixels whose window has too little horizontal gradient to be matched. Works on xsobel rows.
@@ -49,7 +55,14 @@ class TextureCheck {
   std::size_t scratch_bytes() const noexcept;
 
  private:
-  AlignedBuffer<std::uint16_t> column_sums_;  // at most 31 rows of 63
+  static constexpr int kBlock = 64;  // windows looked at together
+
+  // `columns` are those of the first of `count` windows and of all after it.
+  static void reject_block(const std::int16_t* columns, int window, int threshold, int count,
+                           std::int16_t* out);
+
+  int width_;
+  AlignedBuffer<std::int16_t> column_sums_;  // at most 31 rows of 63; a block more than the width
 };
 
 }  // namespace stereod

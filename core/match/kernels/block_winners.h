@@ -48,16 +48,26 @@ class BlockWinners {
     }
   }
 
-  // Writes the winners of a block's columns.
-  static void write(const Shape& shape, const Scratch& scratch, const Block& block, const Best& best,
-                    const Winners& out) {
+  // Writes the winners of a block's columns. Not inlined into each of its many callers: that is size alone.
+  [[gnu::noinline]] static void write(const Shape& shape, const Scratch& scratch, const Block& block,
+                                      const Best& best, const Winners& out) {
     const int at = block.first - (shape.window - 1);
     const int count = block.end - block.first;
     count == kBlockColumns ? copy(best, kBlockColumns, out.index + at, out.cost + at)
                            : copy(best, count, out.index + at, out.cost + at);
-    if (shape.neighbours) write_neighbours(shape, scratch, block, best, out);
-    // Last, because it spoils the kept sums.
-    if (shape.uniqueness_ratio > 0) write_ambiguous(shape, scratch, block, best, out);
+    std::uint64_t around[kBlockColumns];
+    if (shape.uniqueness_ratio > 0) {
+      look_around<true>(shape, scratch, best, count, around);
+      write_ambiguous(shape, scratch, best, count, out.ambiguous + at);
+    } else if (shape.neighbours) {
+      look_around<false>(shape, scratch, best, count, around);
+    }
+    if (shape.neighbours) {
+      for (int i = 0; i < count; ++i) {
+        out.before[at + i] = cost_of(static_cast<std::uint32_t>(around[i]) & 0xFFFF);
+        out.after[at + i] = cost_of(static_cast<std::uint32_t>(around[i] >> 32) & 0xFFFF);
+      }
+    }
   }
 
  private:
@@ -83,59 +93,59 @@ class BlockWinners {
     }
   }
 
-  static void write_neighbours(const Shape& shape, const Scratch& scratch, const Block& block,
-                               const Best& best, const Winners& out) {
-    const int count = block.end - block.first;
-    const int at = block.first - (shape.window - 1);
-    // First all three costs in one load, then apart in vectors.
-    std::uint64_t three[kBlockColumns];
-    const std::uint16_t* sums = scratch.block_sums;
+  // Reads four sums in one load, the second of which is the winner's, and if kCover puts "no sum" over the
+  // winner's and those before and after it.
+  template <bool kCover>
+  static void look_around(const Shape& shape, const Scratch& scratch, const Best& best, int count,
+                          std::uint64_t* around) {
+    constexpr std::uint64_t kThree = 0x0000'FFFF'FFFF'FFFF;
+    constexpr std::uint64_t kNoSums = 0x0001'0001'0001U * std::uint64_t{0xFFFF ^ V::kBias};
+    std::uint16_t* sums = scratch.block_sums - 1;
     const int step = shape.block_step();
+#pragma GCC unroll 2
     for (int i = 0; i < count; ++i, sums += step) {
-      __builtin_memcpy(&three[i], sums + best.k[i] - 1, sizeof(three[0]));
-    }
-    for (int i = 0; i < count; ++i) {
-      out.before[at + i] = cost_of(static_cast<std::uint32_t>(three[i]) & 0xFFFF);
-      out.after[at + i] = cost_of(static_cast<std::uint32_t>(three[i] >> 32) & 0xFFFF);
+      std::uint64_t four;
+      __builtin_memcpy(&four, sums + best.k[i], sizeof(four));
+      around[i] = four;
+      if constexpr (kCover) {
+        four = (four & ~kThree) | kNoSums;
+        __builtin_memcpy(sums + best.k[i], &four, sizeof(four));
+      }
     }
   }
 
   static inline std::uint32_t cost_of(std::uint32_t sum) { return (sum ^ V::kBias) >> kShift; }
 
-  // Whether the least sum of a column but for the winner's and its neighbours' is at most the limit.
-  static void write_ambiguous(const Shape& shape, const Scratch& scratch, const Block& block,
-                              const Best& best, const Winners& out) {
-    const auto ratio = static_cast<std::uint32_t>(shape.uniqueness_ratio);
-    std::uint16_t limits[kBlockColumns];  // as sums with the highest number of a group
-    const int count = block.end - block.first;
-    for (int i = 0; i < count; ++i) {
-      const std::uint32_t cost = best.cost[i];
-      const std::uint32_t limit = (cost + cost * ratio / 100) << kShift | kGroups;
-      limits[i] = static_cast<std::uint16_t>((limit < 0xFFFE ? limit : 0xFFFE) ^ V::kBias);  // 0xFFFF: none
-    }
-    std::uint16_t* sums = scratch.block_sums;
-    const int step = shape.block_step();
+  // Whether the least of the sums that are not covered is at most the limit.
+  static void write_ambiguous(const Shape& shape, const Scratch& scratch, const Best& best, int count,
+                              std::uint8_t* ambiguous) {
+    std::uint16_t rivals[kBlockColumns];
+    // The usual number of disparities has no loop over them.
     const int searched = shape.padded_disparities();
-    for (int i = 0; i < count; ++i) cover_winner(sums + i * step + best.k[i]);
-    std::uint8_t* out_ambiguous = out.ambiguous + block.first - (shape.window - 1);
+    searched == kMaxChunk ? find_rivals(shape, scratch, count, kMaxChunk, rivals)
+                          : find_rivals(shape, scratch, count, searched, rivals);
+    // cost + cost·ratio / 100, without the division, and with rounding as if there were one.
+    const auto percent = static_cast<std::uint32_t>(100 + shape.uniqueness_ratio);
+    for (int i = 0; i < count; ++i) {
+      const std::uint32_t rival = rivals[i] >> kShift;
+      ambiguous[i] = (rival * 100 <= best.cost[i] * percent) & (rivals[i] != 0xFFFF);
+    }
+  }
+
+  // Of each column the least sum, without bias.
+  [[gnu::always_inline]] static inline void find_rivals(const Shape& shape, const Scratch& scratch, int count,
+                                                        int searched, std::uint16_t* rivals) {
+    const std::uint16_t* sums = scratch.block_sums;
+    const int step = shape.block_step();
     for (int i = 0; i < count; ++i, sums += step) {
       Reg least = V::min16(V::load_aligned(sums), V::load_aligned(sums + kLanes));
+#pragma GCC unroll 4
       for (int k = 2 * kLanes; k < searched; k += 2 * kLanes) {
         least = V::min16(least, V::load_aligned(sums + k));
         least = V::min16(least, V::load_aligned(sums + k + kLanes));
       }
-      out_ambiguous[i] = V::any_at_most(least, V::broadcast16(limits[i]));
+      rivals[i] = V::least16(least);
     }
-  }
-
-  // Puts "no sum" over the winner's and those before and after it: four at once, of which the last stays.
-  static inline void cover_winner(std::uint16_t* winner) {
-    constexpr std::uint64_t kThree = 0x0000'FFFF'FFFF'FFFF;
-    constexpr std::uint64_t kNoSums = 0x0001'0001'0001U * std::uint64_t{0xFFFF ^ V::kBias};
-    std::uint64_t four;
-    __builtin_memcpy(&four, winner - 1, sizeof(four));
-    four = (four & ~kThree) | kNoSums;
-    __builtin_memcpy(winner - 1, &four, sizeof(four));
   }
 };
 

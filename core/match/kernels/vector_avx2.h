@@ -72,6 +72,7 @@ struct VectorAvx2 : BytesX86<2> {
     second = _mm256_permute2x128_si256(lower, upper, 0x31);
   }
 
+  static std::uint16_t least16(Reg a) { return static_cast<std::uint16_t>(least_lane(a)); }
   static std::uint32_t least_lane(Reg a) {
     const __m128i folded = _mm_min_epu16(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
     return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(folded)));
@@ -90,10 +91,6 @@ struct VectorAvx2 : BytesX86<2> {
       equal |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_epi8(bytes))) << (32 * pair);
     }
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
-  }
-
-  static bool any_at_most(Reg a, Reg limit) {
-    return _mm256_movemask_epi8(_mm256_cmpeq_epi16(min16(a, limit), a)) != 0;
   }
 
   // above + 2·row by one pmaddubsw, and below, of the pixels to the right less those to the left.

@@ -90,8 +90,18 @@ struct VectorNeon {
     second = vld1q_u16(p + 8);
   }
 
+  static std::uint16_t least16(Reg a) {
+#if defined(__aarch64__)
+    return vminvq_u16(a);
+#else
+    uint16x4_t least = vmin_u16(vget_low_u16(a), vget_high_u16(a));
+    least = vpmin_u16(least, least);
+    least = vpmin_u16(least, least);
+    return vget_lane_u16(least, 0);
+#endif
+  }
   static std::uint32_t least_lane(Reg a) {
-    const std::uint16_t least = least_of(a);
+    const std::uint16_t least = least16(a);
     const uint8x8_t equal = vmovn_u16(vceqq_u16(a, vdupq_n_u16(least)));
     const std::uint64_t mask = vget_lane_u64(vreinterpret_u64_u8(equal), 0);
     return least | static_cast<std::uint32_t>(__builtin_ctzll(mask) / 8) << 16;
@@ -108,12 +118,7 @@ struct VectorNeon {
       found = vminq_u16(found, vornq_u16(number, vceqq_u16(sums[i], wanted)));
       number = vaddq_u16(number, vdupq_n_u16(8));
     }
-    return least_of(found);
-  }
-
-  static bool any_at_most(Reg a, Reg limit) {
-    const uint8x8_t bytes = vmovn_u16(vcleq_u16(a, limit));
-    return vget_lane_u64(vreinterpret_u64_u8(bytes), 0) != 0;
+    return least16(found);
   }
 
   static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,
@@ -194,17 +199,6 @@ struct VectorNeon {
   }
 
   static uint8x16_t bytes(Reg a) { return vreinterpretq_u8_u16(a); }
-
-  static std::uint16_t least_of(Reg a) {
-#if defined(__aarch64__)
-    return vminvq_u16(a);
-#else
-    uint16x4_t least = vmin_u16(vget_low_u16(a), vget_high_u16(a));
-    least = vpmin_u16(least, least);
-    least = vpmin_u16(least, least);
-    return vget_lane_u16(least, 0);
-#endif
-  }
 };
 
 }  // namespace stereod::kernels

@@ -119,6 +119,13 @@ struct VectorScalar {
     second = load(p + 8);
   }
 
+  /// The least lane, less the bias.
+  static std::uint16_t least16(Reg a) {
+    std::uint16_t least = a[0];
+    for (int k = 1; k < kBytes / 2; ++k) least = a[k] < least ? a[k] : least;
+    return least;
+  }
+
   /// The least lane less the bias in the low half, in the high half the first place it has among groups of 8
   /// lanes laid over each other (wider vectors fold onto 8 lanes).
   static std::uint32_t least_lane(Reg a) {
@@ -141,13 +148,6 @@ struct VectorScalar {
     Reg first = broadcast16(0xFFFF);
     for (int i = kLast; i >= 0; --i, places -= 8) first = sums[i] == wanted ? places : first;
     return least_lane(first) & 0xFFFF;
-  }
-
-  /// Is any of the biased numbers at most the limit, which is the same in all lanes?
-  static bool any_at_most(Reg a, Reg limit) {
-    bool any = false;
-    for (int k = 0; k < kBytes / 2; ++k) any |= a[k] <= limit[0];
-    return any;
   }
 
   /// xsobel_row() of kBytes pixels; the rows have a pixel more on either side.

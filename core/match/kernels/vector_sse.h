@@ -81,13 +81,17 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
     second = load(p + 8);
   }
 
+  static std::uint16_t least16(Reg a) {
+#if defined(__SSE4_1__)
+    if constexpr (kSse41) return static_cast<std::uint16_t>(least_lane(a));
+#endif
+    return static_cast<std::uint16_t>(_mm_cvtsi128_si32(fold(a)) ^ kBias);
+  }
   static std::uint32_t least_lane(Reg a) {
 #if defined(__SSE4_1__)
     if constexpr (kSse41) return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(a)));
 #endif
-    Reg least = min16(a, _mm_shuffle_epi32(a, _MM_SHUFFLE(1, 0, 3, 2)));
-    least = min16(least, _mm_shuffle_epi32(least, _MM_SHUFFLE(2, 3, 0, 1)));
-    least = min16(least, _mm_shufflelo_epi16(least, _MM_SHUFFLE(2, 3, 0, 1)));  // its low two lanes
+    const Reg least = fold(a);
     const Reg everywhere = _mm_shuffle_epi32(_mm_shufflelo_epi16(least, 0), 0);
     const auto equal = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi16(a, everywhere)));
     return ((static_cast<std::uint32_t>(_mm_cvtsi128_si32(least)) ^ kBias) & 0xFFFF) |
@@ -105,10 +109,6 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
       equal |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_epi8(bytes))) << (16 * pair);
     }
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
-  }
-
-  static bool any_at_most(Reg a, Reg limit) {
-    return _mm_movemask_epi8(_mm_cmpeq_epi16(min16(a, limit), a)) != 0;
   }
 
   // above + 2·row by one pmaddubsw, and below, of the pixels to the right less those to the left.
@@ -178,6 +178,13 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
   }
 
  private:
+  // The least lane in the low two lanes.
+  static Reg fold(Reg a) {
+    Reg least = min16(a, _mm_shuffle_epi32(a, _MM_SHUFFLE(1, 0, 3, 2)));
+    least = min16(least, _mm_shuffle_epi32(least, _MM_SHUFFLE(2, 3, 0, 1)));
+    return min16(least, _mm_shufflelo_epi16(least, _MM_SHUFFLE(2, 3, 0, 1)));
+  }
+
   // From pairs of bytes, raised by the cap; packing will clip what is below 0.
   static Reg gradient(Reg right, Reg left, Reg below, int cap) {
     const Reg one_two = _mm_set1_epi16(0x0201);
