@@ -8,6 +8,8 @@
 
 namespace stereod::kernels {
 
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);  // of sums read several at once the first is lowest
+
 /// The columns [first, end).
 struct Block {
   int first, end;
