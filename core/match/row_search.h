@@ -16,12 +16,15 @@ namespace stereod {
 /// What the search of one row found: an entry for each column in [first, end), none elsewhere. k is
 /// disparity − min_disparity; n = min(disparities, x − first + 1) of them were searched in column x.
 struct RowWinners {
+  /// Elements after the last column that a search may write over.
+  static constexpr int kMargin = 64;
+
   explicit RowWinners(int width)
-      : index(static_cast<std::size_t>(width)),
-        cost(static_cast<std::size_t>(width)),
-        before(static_cast<std::size_t>(width)),
-        after(static_cast<std::size_t>(width)),
-        ambiguous(static_cast<std::size_t>(width)) {}
+      : index(static_cast<std::size_t>(width + kMargin)),
+        cost(index.size()),
+        before(index.size()),
+        after(index.size()),
+        ambiguous(index.size()) {}
 
   std::size_t bytes() const {
     return index.size() * (sizeof(index[0]) + 3 * sizeof(cost[0]) + sizeof(ambiguous[0]));

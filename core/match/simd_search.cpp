@@ -87,6 +87,8 @@ std::vector<Strip> strips_for(const Shape& shape) {
 std::size_t size(int value) { return static_cast<std::size_t>(value); }
 
 class SimdSearch final : public RowSearch {
+  static_assert(kernels::kBlockColumns <= RowWinners::kMargin);
+
  public:
   SimdSearch(const MatcherOptions& options, int width)
       : options_(options),

@@ -66,7 +66,7 @@ class BlockSearch {
                                      best);
         }
       }
-      if (first != strip.first) BlockWinners<V, kA>::write(shape, scratch, {first, end}, best, out);
+      if (first != strip.first) WinnerWriter<V>::write(shape, scratch, {first, end}, best, out);
     }
   }
 

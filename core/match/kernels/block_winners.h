@@ -26,11 +26,9 @@ struct Best {
   std::uint16_t cost[kBlockColumns];
 };
 
+/// From what a sweep found to the best so far.
 template <typename V, Arithmetic kA>
 class BlockWinners {
-  using Reg = typename V::Reg;
-  static constexpr int kLanes = V::kBytes / 2;
-
  public:
   // Keeps of found[] what is less than the best so far; the first has nothing to be less than. Whole blocks,
   // whatever a block has: a number of columns that the compiler knows saves most of the work around a vector
@@ -50,28 +48,6 @@ class BlockWinners {
     }
   }
 
-  // Writes the winners of a block's columns. Not inlined into each of its many callers: that is size alone.
-  [[gnu::noinline]] static void write(const Shape& shape, const Scratch& scratch, const Block& block,
-                                      const Best& best, const Winners& out) {
-    const int at = block.first - (shape.window - 1);
-    const int count = block.end - block.first;
-    count == kBlockColumns ? copy(best, kBlockColumns, out.index + at, out.cost + at)
-                           : copy(best, count, out.index + at, out.cost + at);
-    std::uint64_t around[kBlockColumns];
-    if (shape.uniqueness_ratio > 0) {
-      look_around<true>(shape, scratch, best, count, around);
-      write_ambiguous(shape, scratch, best, count, out.ambiguous + at);
-    } else if (shape.neighbours) {
-      look_around<false>(shape, scratch, best, count, around);
-    }
-    if (shape.neighbours) {
-      for (int i = 0; i < count; ++i) {
-        out.before[at + i] = cost_of(static_cast<std::uint32_t>(around[i]) & 0xFFFF);
-        out.after[at + i] = cost_of(static_cast<std::uint32_t>(around[i] >> 32) & 0xFFFF);
-      }
-    }
-  }
-
  private:
   static constexpr int kShift = shift_of(kA);
   static constexpr std::uint32_t kGroups = (1U << kShift) - 1;
@@ -86,12 +62,50 @@ class BlockWinners {
     const std::int16_t back = place < places.last ? std::int16_t{0} : places.back;
     return static_cast<std::uint16_t>(places.first + place - back);
   }
-  [[gnu::always_inline]] static inline void copy(const Best& __restrict best, int count,
-                                                 std::uint16_t* __restrict index,
-                                                 std::uint32_t* __restrict cost) {
-    for (int i = 0; i < count; ++i) {
+};
+
+/// From the best of all chunks to Winners. One for all arithmetics, to be small.
+template <typename V>
+class WinnerWriter {
+  using Reg = typename V::Reg;
+  static constexpr int kLanes = V::kBytes / 2;
+
+ public:
+  // Writes the winners of a block's columns, and over what may be written over after them: loops over a whole
+  // block's columns need no beginnings and ends. Not inlined into its many callers: that would only be
+  // larger.
+  [[gnu::noinline]] static void write(const Shape& shape, const Scratch& scratch, const Block& block,
+                                      const Best& best, const Winners& out) {
+    const int at = block.first - (shape.window - 1);
+    const int count = block.end - block.first;
+    copy(best, out.index + at, out.cost + at);
+    std::uint64_t around[kBlockColumns];
+    for (int i = count; i < kBlockColumns; ++i) around[i] = 0;
+    if (shape.uniqueness_ratio > 0) {
+      look_around<true>(shape, scratch, best, count, around);
+      write_ambiguous(shape, scratch, best, count, out.ambiguous + at);
+    } else if (shape.neighbours) {
+      look_around<false>(shape, scratch, best, count, around);
+    }
+    if (shape.neighbours) {
+      copy_neighbours(around, shift_of(shape.arithmetic), out.before + at, out.after + at);
+    }
+  }
+
+ private:
+  static inline void copy(const Best& __restrict best, std::uint16_t* __restrict index,
+                          std::uint32_t* __restrict cost) {
+    for (int i = 0; i < kBlockColumns; ++i) {
       index[i] = best.k[i];
       cost[i] = best.cost[i];
+    }
+  }
+  static inline void copy_neighbours(const std::uint64_t* __restrict around, int shift,
+                                     std::uint32_t* __restrict before, std::uint32_t* __restrict after) {
+    constexpr std::uint32_t kBias = V::kBias;
+    for (int i = 0; i < kBlockColumns; ++i) {
+      before[i] = ((static_cast<std::uint32_t>(around[i]) & 0xFFFF) ^ kBias) >> shift;
+      after[i] = ((static_cast<std::uint32_t>(around[i] >> 32) & 0xFFFF) ^ kBias) >> shift;
     }
   }
 
@@ -116,20 +130,20 @@ class BlockWinners {
     }
   }
 
-  static inline std::uint32_t cost_of(std::uint32_t sum) { return (sum ^ V::kBias) >> kShift; }
-
   // Whether the least of the sums that are not covered is at most the limit.
   static void write_ambiguous(const Shape& shape, const Scratch& scratch, const Best& best, int count,
-                              std::uint8_t* ambiguous) {
+                              std::uint8_t* __restrict ambiguous) {
     std::uint16_t rivals[kBlockColumns];
+    for (int i = count; i < kBlockColumns; ++i) rivals[i] = 0;
     // The usual number of disparities has no loop over them.
     const int searched = shape.padded_disparities();
     searched == kMaxChunk ? find_rivals(shape, scratch, count, kMaxChunk, rivals)
                           : find_rivals(shape, scratch, count, searched, rivals);
     // cost + cost·ratio / 100, without the division, and with rounding as if there were one.
     const auto percent = static_cast<std::uint32_t>(100 + shape.uniqueness_ratio);
-    for (int i = 0; i < count; ++i) {
-      const std::uint32_t rival = rivals[i] >> kShift;
+    const int shift = shift_of(shape.arithmetic);
+    for (int i = 0; i < kBlockColumns; ++i) {
+      const auto rival = static_cast<std::uint32_t>(rivals[i] >> shift);
       ambiguous[i] = (rival * 100 <= best.cost[i] * percent) & (rivals[i] != 0xFFFF);
     }
   }

@@ -62,7 +62,8 @@ struct Strip {
   int columns() const { return end - first; }
 };
 
-/// Where a search leaves its results; element 0 is the first column with an answer.
+/// Where a search leaves its results; element 0 is the first column with an answer. After the last one
+/// kBlockColumns elements may be written over.
 struct Winners {
   std::uint16_t* index;
   std::uint32_t* cost;
