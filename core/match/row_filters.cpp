@@ -95,23 +95,21 @@ void LeftRightCheck::reject_by(Claim* claims, Claim* standing, const RowWinners&
   for (std::ptrdiff_t i = 0; i < count; ++i) claims[i] = Claim{cost[i]} * kMostIndices | index[i];
   std::fill_n(claims + count, kUnroll, kNone);
 
-  Claim* const first = standing + count - 1;  // what k = 0 claims in the first column
   const auto index_of = [](Claim claim) { return static_cast<std::ptrdiff_t>(claim % kMostIndices); };
-  Claim* place = first;
-  for (std::ptrdiff_t i = 0; i < count; i += kUnroll, place -= kUnroll) {
+  for (std::ptrdiff_t i = 0, place = count - 1; i < count; i += kUnroll, place -= kUnroll) {
 #pragma GCC unroll 8
     for (std::ptrdiff_t j = 0; j < kUnroll; ++j) {
       const Claim claim = claims[i + j];
-      Claim& other = place[index_of(claim) - j];
+      Claim& other = standing[place - j + index_of(claim)];
       other = claim < other ? claim : other;
     }
   }
-  place = first;
   std::uint16_t* standing_index = standing_index_.data();
-  for (std::ptrdiff_t i = 0; i < count; i += kUnroll, place -= kUnroll) {
+  for (std::ptrdiff_t i = 0, place = count - 1; i < count; i += kUnroll, place -= kUnroll) {
 #pragma GCC unroll 8
     for (std::ptrdiff_t j = 0; j < kUnroll; ++j) {
-      standing_index[i + j] = static_cast<std::uint16_t>(index_of(place[index_of(claims[i + j]) - j]));
+      const Claim stands = standing[place - j + index_of(claims[i + j])];
+      standing_index[i + j] = static_cast<std::uint16_t>(index_of(stands));
     }
   }
 

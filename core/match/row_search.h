@@ -16,7 +16,7 @@ namespace stereod {
 /// What the search of one row found: an entry for each column in [first, end), none elsewhere. k is
 /// disparity − min_disparity; n = min(disparities, x − first + 1) of them were searched in column x.
 struct RowWinners {
-  /// Elements after the last column that a search may write over.
+  /// So many elements from `end` on a search may write over.
   static constexpr int kMargin = 64;
 
   explicit RowWinners(int width)

@@ -119,7 +119,7 @@ class SimdSearch final : public RowSearch {
       left_rows_[size(y) % left_rows_.size()] = rows[i].left + shape_.min_disparity;
       kernel_.prepare_right_row(shape_, rows[i].right, right_rows_.row(y));
     }
-    for (std::size_t s = 0; s < strips_.size(); ++s) {
+    for (std::size_t s = 0; s < strips_.size(); ++s) {  // from left to right, as Winners wants it
       for (std::size_t i = 0; i < rows.size(); ++i)
         add_row(s, next_row_ + static_cast<int>(i), rows[i].winners);
     }

@@ -76,8 +76,8 @@ void SpeckleFilter::mark_cuts(const std::int16_t* row, int max_step) noexcept {
     const auto up = static_cast<std::int16_t>(here - before);
     const auto down = static_cast<std::int16_t>(before - here);
     const auto step = up > down ? up : down;
-    // Each has its highest bit set, one where the step is too large, the other where one pixel is invalid:
-    // those alone are negative.
+    // Each is negative, one where the step is too large, the other where one of the pixels is invalid and the
+    // other is not: only invalid ones are negative.
     const auto too_far = static_cast<std::int16_t>(most - step);
     const auto edge = static_cast<std::int16_t>(here ^ before);
     cuts[x] = static_cast<std::uint8_t>(static_cast<std::uint16_t>(too_far | edge) >> 15);

@@ -62,8 +62,8 @@ struct Strip {
   int columns() const { return end - first; }
 };
 
-/// Where a search leaves its results; element 0 is the first column with an answer. After the last one
-/// kBlockColumns elements may be written over.
+/// Where a search leaves its results; element 0 is the first column with an answer. After the
+/// strip's last one fewer than kBlockColumns elements are written over, so strips go from left to right.
 struct Winners {
   std::uint16_t* index;
   std::uint32_t* cost;
