@@ -162,12 +162,14 @@ void TextureCheck::reject(const RowWinners& winners, const MatcherOptions& optio
 
 void TextureCheck::reject_block(const std::int16_t* columns, int window, int threshold, int count,
                                 std::int16_t* out) {
-  std::uint16_t sums[kBlock] = {};
-  for (int i = 0; i < window; ++i) {
+  std::uint16_t sums[kBlock];
+  for (int j = 0; j < kBlock; ++j) sums[j] = static_cast<std::uint16_t>(columns[j]);
+  for (int i = 1; i < window; ++i) {
     for (int j = 0; j < kBlock; ++j) sums[j] = static_cast<std::uint16_t>(sums[j] + columns[i + j]);
   }
+  const auto least = static_cast<std::uint16_t>(std::min(threshold, 0xFFFF));  // no sum is as large as that
   for (int j = 0; j < count; ++j) {
-    out[j] = static_cast<std::int16_t>(out[j] | -static_cast<int>(sums[j] < threshold));
+    out[j] = static_cast<std::int16_t>(out[j] | -static_cast<int>(sums[j] < least));
   }
 }
 
