@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Shows stereod at work: installs what it needs, builds it, lets it match a pair of photographs and then a moving
-# rendered scene, receives the disparities over LCM, and leaves coloured depth pictures in demo-output/.
+# rendered scene, receives the disparities over LCM, and leaves colored depth images in demo-output/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -79,14 +79,14 @@ matcher:
 YAML
 }
 
-# Runs the daemon on configuration $2, receives for a few seconds and keeps a picture as demo-output/$1.png.
+# Runs the daemon on configuration $2, receives for a few seconds and keeps a image as demo-output/$1.png.
 show() {
   local name=$1 config=$2 scratch=$output/$1-frames log=$output/$1.log
   rm -rf "$scratch"
   "$bin/stereod" --config "$config" --check-config >"$log" 2>&1 || { cat "$log" >&2; die "stereod refuses $config."; }
   "$bin/stereod" --config "$config" >"$log" 2>&1 &
   daemon_pid=$!
-  # The first frame takes as long as the pictures take to load.
+  # The first frame takes as long as the images take to load.
   if ! "$bin/stereo-tap" save --frames 1 --out "$scratch" --timeout 60 >/dev/null; then
     cat "$log" >&2
     die "nothing came from stereod; above is what it said."
@@ -102,7 +102,7 @@ show() {
   mv "$scratch"/*.pfm "$output/$name.pfm"
   rmdir "$scratch"
   stop_daemon || { cat "$log" >&2; die "stereod did not stop cleanly; above is what it said."; }
-  say "Disparity in colours: $PWD/$output/$name.png (in numbers: $output/$name.pfm)"
+  say "Disparity in colors: $PWD/$output/$name.png (in numbers: $output/$name.pfm)"
 }
 
 run_show() {

@@ -10,11 +10,11 @@
 #include <memory>
 #include <string>
 
+#include "daemon/base/clocks.h"
+#include "daemon/base/file_error.h"
 #include "daemon/capture/v4l2/camera_list.h"
 #include "daemon/config/config.h"
-#include "daemon/config/file_error.h"
-#include "daemon/pipeline/clocks.h"
-#include "daemon/publish/lcm_bus.h"
+#include "daemon/lcm/bus.h"
 #include "daemon/service/checks.h"
 #include "daemon/service/log.h"
 #include "daemon/service/service.h"

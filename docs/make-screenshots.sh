@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the screenshots in docs/pictures anew, from build/release: stereo-view in headless Chromium, stereod-spy on a
+# Makes the screenshots in docs/images anew, from build/release: stereo-view in headless Chromium, stereod-spy on a
 # virtual screen, and what stereo-tap prints. Wants the Debian packages chromium, xvfb, xdotool, imagemagick,
 # fonts-dejavu-core and those of stereod-spy, and some minutes in which the machine does little else.
 set -euo pipefail
@@ -17,13 +17,13 @@ clean_up() {
 }
 trap clean_up EXIT
 
-# At most 64 colours and 1000 px wide: for reading, not for looking at pixels.
-keep() { convert "$1" -resize '1000x>' -colors 64 -strip "PNG8:docs/pictures/$2"; }
+# At most 64 colors and 1000 px wide: for reading, not for looking at pixels.
+keep() { convert "$1" -resize '1000x>' -colors 64 -strip "PNG8:docs/images/$2"; }
 
 STEREO_SCREENSHOTS=$work $bin/test_view --gtest_filter='BrowserTest.ShowsWhatIsOnTheWire'
 keep "$work/stereo-view.png" stereo-view.png
 
-tests/spy/run.sh "$bin" build/release/share/stereod "$work/stereod-spy.png"
+tests/daemon/tools/spy/run.sh "$bin" build/release/share/stereod "$work/stereod-spy.png"
 keep "$work/stereod-spy.png" stereod-spy.png
 
 export LCM_DEFAULT_URL='udpm://239.255.76.67:17670?ttl=0'

@@ -4,12 +4,12 @@
 # a release's libraries runs with their updates too. Fails if there are none.
 #   apt-sources.sh [FOLDER]      FOLDER: instead of /etc/apt
 set -euo pipefail
-folder=${1:-/etc/apt}
+directory=${1:-/etc/apt}
 
 # The form with a paragraph for each source. Field names are in any case, values go on in indented lines.
 paragraphs() {
   local file
-  for file in "$folder"/sources.list.d/*.sources; do
+  for file in "$directory"/sources.list.d/*.sources; do
     [[ ! -s $file ]] || awk -v RS= '
       function has(list, word) { return (" " list " ") ~ ("[ \t]" word "[ \t]") }
       {
@@ -42,7 +42,7 @@ paragraphs() {
 # The older form, a line for each source, whose options may limit it to an architecture.
 lines() {
   local file
-  for file in "$folder"/sources.list "$folder"/sources.list.d/*.list; do
+  for file in "$directory"/sources.list "$directory"/sources.list.d/*.list; do
     [[ ! -s $file ]] || sed -E -n 's/[[:space:]]*(#.*)?$//
       /^[[:space:]]*deb[[:space:]]/!d
       s/\[[[:space:]]*/[/; s/([[[:space:]])arch[-+]?=[^][:space:]]*[[:space:]]*/\1/g; s/[[:space:]]*\]/]/; s/\[\][[:space:]]*//

@@ -52,7 +52,7 @@ esac
 as_root=
 [[ $rights == root ]] || as_root='sudo -n '
 
-# Without tests, in a folder of its own.
+# Without tests, in a directory of its own.
 build=build/package
 if [[ $preset != package ]]; then
   toolchain/make-sysroot.sh "$arch" >/dev/null || die "there are no libraries to build against for $arch, see above."
@@ -68,16 +68,16 @@ rm -f "$build"/*.deb
 package=$(ls "$build"/stereod_*_"$arch".deb)
 
 echo "deploy: installing $(basename "$package"), $(($(stat -c %s "$package") / 1024)) KiB"
-folder=$(answer 1 'mktemp -d /tmp/stereod-XXXXXX') || die "no folder can be made in /tmp of $host; is its disk full?"
-[[ $folder =~ ^/tmp/stereod-[A-Za-z0-9]{6}$ ]] || die "$host answers '$folder' to mktemp, which makes no sense."
-remote "cat >$folder/stereod.deb || { rm -rf $folder; false; }" <"$package" ||
+directory=$(answer 1 'mktemp -d /tmp/stereod-XXXXXX') || die "no directory can be made in /tmp of $host; is its disk full?"
+[[ $directory =~ ^/tmp/stereod-[A-Za-z0-9]{6}$ ]] || die "$host answers '$directory' to mktemp, which makes no sense."
+remote "cat >$directory/stereod.deb || { rm -rf $directory; false; }" <"$package" ||
   die "the package cannot be copied to $host; is its disk full?"
 # One's own configuration stays; a changed one of the package is laid beside it. A board that has never fetched lists of packages
 # does so if it must.
 install="${as_root}env DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends --reinstall --allow-downgrades \
-  -o Dpkg::Options::=--force-confold install $folder/stereod.deb </dev/null"
-remote "chmod 755 $folder; $install || { ${as_root}apt-get -q update </dev/null && $install; }; status=\$?
-  rm -rf $folder; exit \$status" >"$errors" 2>&1 || {
+  -o Dpkg::Options::=--force-confold install $directory/stereod.deb </dev/null"
+remote "chmod 755 $directory; $install || { ${as_root}apt-get -q update </dev/null && $install; }; status=\$?
+  rm -rf $directory; exit \$status" >"$errors" 2>&1 || {
   cat "$errors" >&2
   die "apt-get on $host could not install it, see above; what it depends on must be in the board's apt sources or installed before."
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Unpacks what stereod is built against for a foreign machine: Debian's libraries and headers of that architecture, from
 # this machine's own apt sources, and a list of their packages, from which dependencies are told when packages are made.
-# Anybody may: apt works in a folder of its own, and nothing is installed.
-#   make-sysroot.sh ARCH [--again]        ARCH: arm64, armhf or i386; prints the folder, which is made only once, and again
+# Anybody may: apt works in a directory of its own, and nothing is installed.
+#   make-sysroot.sh ARCH [--again]        ARCH: arm64, armhf or i386; prints the directory, which is made only once, and again
 #                                         when other packages are wanted than the last time
 # It lies in .cache/stereod/sysroots in the home directory, where the presets of CMakePresets.json look for it.
 set -euo pipefail
@@ -16,7 +16,7 @@ usage="usage: toolchain/make-sysroot.sh arm64|armhf|i386 [--again]"
 arch=${1:-}
 [[ $arch == arm64 || $arch == armhf || $arch == i386 ]] || die "$usage"
 [[ $# -le 2 && ${2:---again} == --again ]] || die "$usage"
-[[ -n ${HOME:-} ]] || die "HOME names no folder, so there is none to keep the sysroot in."
+[[ -n ${HOME:-} ]] || die "HOME names no directory, so there is none to keep the sysroot in."
 sysroots=$HOME/.cache/stereod/sysroots
 sysroot=$sysroots/$arch
 packages=(libc6-dev libstdc++-12-dev liblcm-dev libv4l-dev libyaml-cpp-dev libspdlog-dev libcli11-dev libturbojpeg0-dev

@@ -16,7 +16,7 @@ void FrameMatcher::use_masks(const ValidityMask* left, const ValidityMask* right
   for (const auto& matcher : matchers_) matcher->use_masks(left, right);
 }
 
-void FrameMatcher::match(GreyView left, GreyView right, ImageView<std::int16_t> out) {
+void FrameMatcher::match(GrayView left, GrayView right, ImageView<std::int16_t> out) {
   assert(left.size() == image_ && right.size() == image_ && out.size() == image_);
   const int bands = std::min(pool_.workers(), image_.height);
   pool_.run(bands, [&](int band, int worker) {
@@ -29,7 +29,7 @@ void FrameMatcher::match(GreyView left, GreyView right, ImageView<std::int16_t> 
   }
 }
 
-void FrameMatcher::match_band(BandMatcher& matcher, GreyView left, GreyView right, RowRange rows,
+void FrameMatcher::match_band(BandMatcher& matcher, GrayView left, GrayView right, RowRange rows,
                               ImageView<std::int16_t> out) {
   const RowRange input = matcher.begin(rows);
   for (int y = input.first; y < input.end; ++y) {

@@ -1,13 +1,13 @@
-// Matches whole pictures, cut into one band for each worker.
+// Matches whole images, cut into one band for each worker.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "core/base/worker_pool.h"
 #include "core/match/band_matcher.h"
 #include "core/match/speckle.h"
-#include "core/worker_pool.h"
 
 namespace stereod {
 
@@ -22,10 +22,10 @@ class FrameMatcher {
   void use_masks(const ValidityMask* left, const ValidityMask* right) noexcept;
 
   /// Left and right are rectified and, like `out`, of the size given; `out` gets 1/units_per_pixel() px.
-  void match(GreyView left, GreyView right, ImageView<std::int16_t> out);
+  void match(GrayView left, GrayView right, ImageView<std::int16_t> out);
 
  private:
-  static void match_band(BandMatcher& matcher, GreyView left, GreyView right, RowRange rows,
+  static void match_band(BandMatcher& matcher, GrayView left, GrayView right, RowRange rows,
                          ImageView<std::int16_t> out);
 
   MatcherOptions options_;

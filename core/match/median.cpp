@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "core/disparity.h"
+#include "core/match/disparity.h"
 
 namespace stereod {
 namespace {

@@ -1,4 +1,4 @@
-// Median of a disparity row over its valid neighbours.
+// Median of a disparity row over its valid neighbors.
 #pragma once
 
 #include <cstdint>

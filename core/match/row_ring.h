@@ -1,10 +1,10 @@
-// The last few rows of a picture.
+// The last few rows of a image.
 #pragma once
 
 #include <cassert>
 #include <cstddef>
 
-#include "core/image.h"
+#include "core/base/image.h"
 
 namespace stereod {
 

@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little);  // the first of eigh
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-// A pixel hangs together with its neighbours by its disparity, measured or filled in.
+// A pixel hangs together with its neighbors by its disparity, measured or filled in.
 std::int16_t disparity_of(std::int16_t value) { return is_filled(value) ? filled_disparity(value) : value; }
 
 }  // namespace

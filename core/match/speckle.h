@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/disparity.h"
+#include "core/match/disparity.h"
 
 namespace stereod {
 
 /// Makes invalid every region of at most `max_size` pixels; a region is what hangs together up, down, left
 /// and right by steps of at most `max_step` units (docs/matcher.md, section 5). Owns its scratch memory.
 ///
-/// Each row is cut into runs of pixels that hang together; runs of neighbouring rows that touch are united
+/// Each row is cut into runs of pixels that hang together; runs of neighboring rows that touch are united
 /// (union-find over runs; Rosenfeld and Pfaltz 1966 label components in this way).
 class SpeckleFilter {
  public:

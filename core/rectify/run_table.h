@@ -1,16 +1,16 @@
-// Which pixels of a picture are moved where, so that many can be moved at once.
+// Which pixels of a image are moved where, so that many can be moved at once.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "core/image.h"
+#include "core/base/image.h"
 
 namespace stereod {
 
 /// Pixels [first, first + count) of a row whose sources lie one pixel after the other, at most kRunPixels of
-/// them. Rectification moves pixels in such runs: a lens moves its neighbours together, until the distances
+/// them. Rectification moves pixels in such runs: a lens moves its neighbors together, until the distances
 /// have grown by half a pixel or the row of the source changes.
 struct Run {
   std::int32_t source;  ///< of the first pixel: bytes from the source's first one; below 0: there is none
@@ -35,13 +35,13 @@ class RunTable {
     Kind kind;
   };
 
-  /// For rows of `width` ≤ kWidest pixels. No run goes across one of `ends`: the columns, growing, the last
+  /// For rows of `width` ≤ kMaxWidth pixels. No run goes across one of `ends`: the columns, growing, the last
   /// one being `width`, where a stretch of the row ends that is moved for itself. Whole runs are read only
   /// where the source has at least `reach` bytes from the run's first pixel on, of `source_bytes`; a reach of
   /// 0 means that they never are.
   RunTable(int width, std::vector<int> ends, std::ptrdiff_t pixel_stride, std::ptrdiff_t reach,
            std::ptrdiff_t source_bytes);
-  static constexpr int kWidest = 65'535;
+  static constexpr int kMaxWidth = 65'535;
 
   /// Appends a row: where each of its pixels comes from, below 0 for none.
   void append(const std::int32_t* offsets);

@@ -12,7 +12,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 // Longer waits are cut to this, so that no sum of times overflows.
-constexpr std::chrono::milliseconds kLongestWait = std::chrono::hours(24);
+constexpr std::chrono::milliseconds kMaxWait = std::chrono::hours(24);
 
 std::int64_t to_ns(std::chrono::steady_clock::time_point time) {
   return std::chrono::duration_cast<nanoseconds>(time.time_since_epoch()).count();
@@ -39,7 +39,7 @@ FrameClock::FrameClock(double fps, const std::vector<nanoseconds>& offsets) {
 std::optional<FrameTick> FrameClock::wait(int camera, std::chrono::milliseconds timeout) noexcept {
   std::unique_lock lock(mutex_);
   const Time now = std::chrono::steady_clock::now();
-  const Time deadline = now + std::min(timeout, kLongestWait);
+  const Time deadline = now + std::min(timeout, kMaxWait);
   if (!origin_) origin_ = now;
   Camera& state = cameras_[static_cast<std::size_t>(camera)];
   return period_.count() > 0 ? wait_paced(state, deadline, lock) : wait_free(state, deadline, lock);

@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
-#include "core/image.h"
+#include "core/base/image.h"
 
 namespace stereod {
 
-/// The brightness of a picture, read where it lies: `pixel_stride` is 1 for grey and planar formats, 2 for
+/// The brightness of a image, read where it lies: `pixel_stride` is 1 for gray and planar formats, 2 for
 /// the Y of YUYV and UYVY.
 struct LumaView {
   const std::uint8_t* data = nullptr;
@@ -85,13 +85,13 @@ struct SourceReport {
   std::string format;      ///< what it gives: "MJPG 640×480 at 30/s"
   std::string note;        ///< what is worth knowing all the same, such as a control that did not take
   std::string last_fault;  ///< the last reason it did not stream for
-  std::int64_t last_fault_ns = 0;  ///< when, CLOCK_MONOTONIC; 0: never
-  std::int64_t reconnects = 0;     ///< times it streamed again
-  std::int64_t sequence_gaps = 0;  ///< frames that the camera counted and that never came here
-  std::int64_t decode_errors = 0;  ///< frames dropped: JPEGs that could not be decoded
-  std::int64_t incomplete = 0;     ///< frames dropped: empty, too short, or marked as damaged by the driver
-  std::int64_t bad_stamps = 0;     ///< frames dropped: stamped in a time that cannot be
-  std::int64_t superseded = 0;     ///< frames dropped: a newer one was there already
+  std::int64_t last_fault_ns = 0;   ///< when, CLOCK_MONOTONIC; 0: never
+  std::int64_t reconnects = 0;      ///< times it streamed again
+  std::int64_t sequence_gaps = 0;   ///< frames that the camera counted and that never came here
+  std::int64_t decode_errors = 0;   ///< frames dropped: JPEGs that could not be decoded
+  std::int64_t incomplete = 0;      ///< frames dropped: empty, too short, or marked as damaged by the driver
+  std::int64_t bad_timestamps = 0;  ///< frames dropped: stamped in a time that cannot be
+  std::int64_t superseded = 0;      ///< frames dropped: a newer one was there already
 };
 
 /// One camera: real, recorded or rendered. next() is called by one thread, the camera's own; give_back() by

@@ -10,20 +10,20 @@
 namespace stereod {
 namespace {
 
-constexpr int kSubpixels = 16;           // units in a pixel, if they are not whole pixels
-constexpr int kLongestSide = 4096;       // px; no message can ask for gigabytes
-constexpr int kLargestDisparity = 4096;  // px
+constexpr int kSubpixels = 16;       // units in a pixel, if they are not whole pixels
+constexpr int kMaxSide = 4096;       // px; no message can ask for gigabytes
+constexpr int kMaxDisparity = 4096;  // px
 constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 
 // Numbers further away than these are another numbering, not a loss. At 30 frames a second: 3 s without
 // reception, half a second of lateness.
 constexpr std::int64_t kMaxForward = 100;
-constexpr double kLongestPeriod_us = 60e6;  // of frames
+constexpr double kMaxPeriod_us = 60e6;  // of frames
 constexpr std::int64_t kMaxBackward = 16;
 constexpr int kMessagesToFollow = 3;
 
 bool is_image_size(int width, int height) {
-  return width >= 1 && width <= kLongestSide && height >= 1 && height <= kLongestSide;
+  return width >= 1 && width <= kMaxSide && height >= 1 && height <= kMaxSide;
 }
 
 /// Fixed-point units in a pixel for a scale in pixels per unit; 0 if the wire format does not have it.
@@ -49,8 +49,8 @@ bool same_search(const StereoFrame& frame, const disparity_rows_t& m) {
 
 /// `count` columns or rows, `step` apart from `first` on, all within an image that can be.
 bool is_sane_axis(int first, int step, int count) {
-  return first >= 0 && first < kLongestSide && step >= 1 && step <= kLongestSide &&
-         first + (count - 1) * step < kLongestSide;
+  return first >= 0 && first < kMaxSide && step >= 1 && step <= kMaxSide &&
+         first + (count - 1) * step < kMaxSide;
 }
 
 /// Puts the row's filled disparities beside its measured ones.
@@ -68,16 +68,16 @@ void limit_received(StereoFrame& frame) {
 
 }  // namespace
 
-bool is_sane(const disparity_rows_t& m) {
+bool is_valid(const disparity_rows_t& m) {
   if (m.frame < 0 || m.utime < 0 || !is_image_size(m.width, m.height)) return false;
   if (m.first_row < 0 || m.row_count < 1 || m.row_count > m.height || m.first_row > m.height - m.row_count) {
     return false;
   }
-  if (!is_sane_axis(m.left, m.column_step, m.width) || !is_sane_axis(m.top, m.row_step, m.height)) {
+  if (!is_sane_axis(m.left, m.decimation_x, m.width) || !is_sane_axis(m.top, m.decimation_y, m.height)) {
     return false;
   }
-  if (m.min_disparity < 0 || m.min_disparity > kLargestDisparity) return false;
-  if (m.disparities < 1 || m.disparities > kLargestDisparity || units_of(m.scale) == 0) return false;
+  if (m.min_disparity < 0 || m.min_disparity > kMaxDisparity) return false;
+  if (m.disparities < 1 || m.disparities > kMaxDisparity || units_of(m.scale) == 0) return false;
   if (m.bytes_per_value != 1 && m.bytes_per_value != 2) return false;
   if (m.invalid < 0 || m.invalid > (m.bytes_per_value == 1 ? 0xFF : 0xFFFF)) return false;
   const int filled_size = (m.width + 7) / 8 * m.row_count;
@@ -86,13 +86,22 @@ bool is_sane(const disparity_rows_t& m) {
       (m.filled_size != filled_size || m.filled.size() != static_cast<std::size_t>(m.filled_size))) {
     return false;
   }
-  const int expected_size = m.width * m.row_count * m.bytes_per_value;  // at most 2^25
+  const int pixels = m.width * m.row_count;  // at most 2^24
+  if (m.confidence_size != 0 &&
+      (m.confidence_size != pixels || m.confidence.size() != static_cast<std::size_t>(pixels))) {
+    return false;
+  }
+  if (m.encoding != 0) return false;
+  const int expected_size = pixels * m.bytes_per_value;
   return m.size == expected_size && m.data.size() == static_cast<std::size_t>(m.size);
 }
 
-bool is_sane(const frame_t& m) {
+bool is_valid(const frame_t& m) {
+  const auto is_fraction = [](float value) { return value >= 0.0F && value <= 1.0F; };
   return m.frame >= 0 && m.utime >= 0 && is_image_size(m.width, m.height) && m.rows >= 1 &&
-         m.rows <= m.height && m.messages >= 0 && m.valid_fraction >= 0.0F && m.valid_fraction <= 1.0F;
+         m.rows <= m.height && m.messages >= 0 && is_fraction(m.measured_fraction) &&
+         is_fraction(m.filled_fraction) &&
+         (m.no_evidence_fraction == -1.0F || is_fraction(m.no_evidence_fraction));
 }
 
 double CameraGeometry::depth_m(double disparity_px) const {
@@ -178,7 +187,7 @@ void RowBlock::copy_row(int y, std::int16_t* out, Pixels pixels) const {
   for (int x = 0; x < message_.width; ++x) out[x] = at(x, y, pixels);
 }
 
-std::string problem_in_words(const ReceptionCounts& counts) {
+std::string describe_problems(const ReceptionCounts& counts) {
   std::string words;
   const auto add = [&words](const std::string& sentence) { words += (words.empty() ? "" : " ") + sentence; };
   if (counts.restarts >= 3) {
@@ -208,7 +217,7 @@ std::string problem_in_words(const ReceptionCounts& counts) {
 }
 
 void FrameAssembler::take(const disparity_rows_t& m) {
-  if (!is_sane(m)) return count_ignored();
+  if (!is_valid(m)) return count_ignored();
   Slot* slot = slot_for(m.frame, m.utime, m.width, m.height);
   if (slot == nullptr) return;
   if (slot->state == State::kHandedOver) {
@@ -244,7 +253,7 @@ void FrameAssembler::take(const disparity_rows_t& m) {
 }
 
 void FrameAssembler::take(const frame_t& m) {
-  if (!is_sane(m)) return count_ignored();
+  if (!is_valid(m)) return count_ignored();
   Slot* slot = slot_for(m.frame, m.utime, m.width, m.height);
   if (slot == nullptr) return;
   if (slot->state == State::kHandedOver || slot->out.summary) return;
@@ -306,8 +315,7 @@ bool FrameAssembler::belongs_to_numbering(std::int64_t frame, std::int64_t utime
   if (frame > newest_) {
     const double step = static_cast<double>(frame - newest_);
     const double time_us = static_cast<double>(utime) - static_cast<double>(newest_utime_);
-    return step <= kMaxForward &&
-           (newest_utime_ == 0 || (time_us >= 0 && time_us <= step * kLongestPeriod_us));
+    return step <= kMaxForward && (newest_utime_ == 0 || (time_us >= 0 && time_us <= step * kMaxPeriod_us));
   }
   return newest_ - frame <= kMaxBackward && utime <= newest_utime_;
 }
@@ -491,7 +499,7 @@ StereoClient::StereoClient(const Options& options) : StereoClient() {
                              "': is it PROVIDER://NETWORK, and does a route lead to its multicast group?");
   }
   lcm_ = owned_.get();
-  newest_frame_only_ = options.newest_frame_only;
+  newest_frame_only_ = options.latest_only;
   subscribe(options.prefix, options.queue_messages);
 }
 
@@ -569,7 +577,7 @@ void StereoClient::hand_over(StereoFrame&& frame) {
 }
 
 void StereoClient::take_rows(const void* bytes, std::size_t size) {
-  if (!decode_message(bytes, size, rows_) || !is_sane(rows_)) return assembler_.count_ignored();
+  if (!decode_message(bytes, size, rows_) || !is_valid(rows_)) return assembler_.count_ignored();
   if (on_rows_) on_rows_(RowBlock(rows_));
   assembler_.take(rows_);
 }

@@ -29,7 +29,7 @@
 
 namespace stereod {
 
-/// A point in metres: x to the right, y down, z forward, from the left camera.
+/// A point in meters: x to the right, y down, z forward, from the left camera.
 struct StereoPoint {
   float x = 0, y = 0, z = 0;
 };
@@ -40,7 +40,7 @@ struct CameraGeometry {
   double baseline_m = 0;
   double disparity_offset = 0;  ///< px, added to a disparity before it is turned into depth
 
-  /// Metres along the optical axis; infinite at the horizon and beyond it.
+  /// Meters along the optical axis; infinite at the horizon and beyond it.
   double depth_m(double disparity_px) const;
   /// The point that the left image shows at (x, y); its coordinates are not finite where depth is not.
   StereoPoint point(double x, double y, double disparity_px) const;
@@ -52,20 +52,21 @@ std::optional<CameraGeometry> geometry_of(const camera_info_t& info);
 /// Which pixels of the rectified image the daemon publishes: pixel (u, v) of what it publishes is pixel
 /// (image_x(u), image_y(v)) there.
 struct PixelGrid {
-  int left = 0, top = 0;              ///< px
-  int column_step = 1, row_step = 1;  ///< px, ≥ 1
+  int left = 0, top = 0;                   ///< px
+  int decimation_x = 1, decimation_y = 1;  ///< px, ≥ 1
 
-  int image_x(int u) const { return left + u * column_step; }
-  int image_y(int v) const { return top + v * row_step; }
+  int image_x(int u) const { return left + u * decimation_x; }
+  int image_y(int v) const { return top + v * decimation_y; }
   friend bool operator==(const PixelGrid& a, const PixelGrid& b) {
-    return a.left == b.left && a.top == b.top && a.column_step == b.column_step && a.row_step == b.row_step;
+    return a.left == b.left && a.top == b.top && a.decimation_x == b.decimation_x &&
+           a.decimation_y == b.decimation_y;
   }
 };
 
 /// Which disparities are wanted.
 enum class Pixels {
   kMeasured,          ///< only those that were matched
-  kMeasuredOrFilled,  ///< also those that the daemon took from their neighbours because it found no match
+  kMeasuredOrFilled,  ///< also those that the daemon took from their neighbors because it found no match
 };
 
 /// Disparities in fixed point, row after row.
@@ -112,7 +113,7 @@ struct StereoFrame {
 
   /// Of a pixel of `disparity`: px of the rectified image, or NaN if there is none.
   float disparity_px(int x, int y, Pixels pixels = Pixels::kMeasured) const;
-  /// Metres along the optical axis; NaN if there is no disparity or no camera, infinite at the horizon.
+  /// Meters along the optical axis; NaN if there is no disparity or no camera, infinite at the horizon.
   float depth_m(int x, int y, Pixels pixels = Pixels::kMeasured) const;
   /// NaN in every coordinate where depth is NaN or infinite.
   StereoPoint point(int x, int y, Pixels pixels = Pixels::kMeasured) const;
@@ -130,7 +131,9 @@ class RowBlock {
 
   const disparity_rows_t& message() const { return message_; }
   int units_per_pixel() const { return message_.scale == 1.0F ? 1 : 16; }
-  PixelGrid grid() const { return {message_.left, message_.top, message_.column_step, message_.row_step}; }
+  PixelGrid grid() const {
+    return {message_.left, message_.top, message_.decimation_x, message_.decimation_y};
+  }
   /// In units of 1 / units_per_pixel() px, or DisparityMap::kNone. `y` is a row of what is published,
   /// first_row ≤ y < first_row + row_count.
   std::int16_t at(int x, int y, Pixels pixels = Pixels::kMeasured) const;
@@ -165,7 +168,7 @@ struct ReceptionCounts {
 };
 
 /// What these counts say is wrong, and what to do, in sentences; empty if nothing is.
-std::string problem_in_words(const ReceptionCounts& counts);
+std::string describe_problems(const ReceptionCounts& counts);
 
 /// Takes the messages of one daemon in any order and hands each frame over once, in the order of their
 /// numbers: as soon as it is complete, else when the next one is, or when two newer ones have begun.
@@ -223,8 +226,8 @@ class FrameAssembler {
 };
 
 /// True if rows can be what stereod sends: every number in its range, the data as long as they say.
-bool is_sane(const disparity_rows_t& rows);
-bool is_sane(const frame_t& summary);
+bool is_valid(const disparity_rows_t& rows);
+bool is_valid(const frame_t& summary);
 
 /// How a message lies on the wire after its fingerprint, a letter a field: b 1 byte, i 4 bytes, d 8 bytes,
 /// s a string (its length with the closing zero, then that), v a byte array (its length, then the bytes), f
@@ -233,11 +236,11 @@ bool is_sane(const frame_t& summary);
 template <typename Message>
 inline constexpr std::string_view kWireLayout;
 template <>
-inline constexpr std::string_view kWireLayout<disparity_rows_t> = "ddiiiiiiiiiiibivv";
+inline constexpr std::string_view kWireLayout<disparity_rows_t> = "ddiiiiiiiiiiibibvvv";
 template <>
-inline constexpr std::string_view kWireLayout<frame_t> = "ddiiiiiddiiiiiiibii";
+inline constexpr std::string_view kWireLayout<frame_t> = "ddiiiiiiibsddiiiiiiibbii";
 template <>
-inline constexpr std::string_view kWireLayout<camera_info_t> = "diibddddddiis";
+inline constexpr std::string_view kWireLayout<camera_info_t> = "diibbddddddiisdddddd";
 
 /// True if the bytes are a fingerprint and exactly the fields of `layout`, every length inside the bytes.
 bool has_layout(const void* bytes, std::size_t size, std::string_view layout) noexcept;
@@ -265,7 +268,7 @@ class StereoClient {
     int receive_buffer =
         4 << 20;                ///< bytes, unless the URL has recv_buf_size; the kernel's rmem_max limits it
     int queue_messages = 1000;  ///< how many wait in a queue for a program that is late; more are lost
-    bool newest_frame_only = true;  ///< handle() reads all that waits and hands over only the newest frame
+    bool latest_only = true;    ///< handle() reads all that waits and hands over only the newest frame
   };
 
   /// Opens LCM and subscribes. Throws std::runtime_error with a sentence.
@@ -295,7 +298,7 @@ class StereoClient {
   int file_descriptor() const;
 
   const ReceptionCounts& counts() const { return assembler_.counts(); }
-  std::int64_t frames_skipped() const { return frames_skipped_; }  ///< by newest_frame_only
+  std::int64_t frames_skipped() const { return frames_skipped_; }  ///< by latest_only
   const std::optional<CameraGeometry>& camera() const { return camera_; }
 
   /// What a message on one of the channels does, for bytes that came on another way than LCM's network.
@@ -325,7 +328,7 @@ class StereoClient {
   FrameAssembler assembler_;
   disparity_rows_t rows_{};  // kept so that its memory is used again
   std::optional<CameraGeometry> camera_;
-  std::optional<StereoFrame> waiting_;  // with newest_frame_only
+  std::optional<StereoFrame> waiting_;  // with latest_only
   bool newest_frame_only_ = false;
   std::int64_t frames_skipped_ = 0;
   std::function<void(StereoFrame&&)> on_frame_;

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "daemon/config/text_file.h"
+#include "daemon/base/text_file.h"
 #include "daemon/config/yaml_section.h"
 
 namespace stereod {
@@ -14,11 +14,11 @@ namespace stereod {
 namespace {
 
 double focal_length(YamlSection& section, const std::string& key) {
-  return section.required_number(key, kShortestFocal_px, kLongestFocal_px);
+  return section.required_number(key, kMinFocal_px, kMaxFocal_px);
 }
 
 double principal_point(YamlSection& section, const std::string& key) {
-  return section.required_number(key, -kLongestFocal_px, kLongestFocal_px);
+  return section.required_number(key, -kMaxFocal_px, kMaxFocal_px);
 }
 
 RectifiedProjection read_projection(YamlSection section) {
@@ -55,9 +55,9 @@ CameraCalibration read_camera(YamlSection section, Size image) {
 
 CalibrationQuality read_quality(YamlSection section) {
   CalibrationQuality result;
-  result.pairs_used = section.required_integer("pairs_used", 0, kMostPairs);
-  result.rms_px = section.required_number("rms_px", 0, kLargestError_px);
-  result.epipolar_error_px = section.required_number("epipolar_error_px", 0, kLargestError_px);
+  result.pairs_used = section.required_integer("pairs_used", 0, kMaxPairs);
+  result.rms_px = section.required_number("rms_px", 0, kMaxError_px);
+  result.epipolar_error_px = section.required_number("epipolar_error_px", 0, kMaxError_px);
   section.finish();
   return result;
 }
@@ -76,7 +76,7 @@ void write_camera(std::ostream& out, const char* name, const CameraCalibration& 
   out << "  fx: " << digits(m.fx) << "  # focal lengths, pixels\n";
   out << "  fy: " << digits(m.fy) << "\n";
   out << "  cx: " << digits(m.cx)
-      << "  # principal point, pixels; (0, 0) is the centre of the top left pixel\n";
+      << "  # principal point, pixels; (0, 0) is the center of the top left pixel\n";
   out << "  cy: " << digits(m.cy) << "\n";
   out << (fisheye
               ? "  # k1, k2, k3, k4 of the equidistant model, as in OpenCV\n"
@@ -108,9 +108,9 @@ Calibration read_calibration(const std::filesystem::path& file) {
   YamlSection root(file, load_yaml_map(file));
   Calibration result;
   root.text("id", "");  // known, but not believed
-  result.image.width = root.required_integer("image_width", 1, kWidest_px);
-  result.image.height = root.required_integer("image_height", 1, kWidest_px);
-  result.baseline_m = root.required_number("baseline_m", kShortestBaseline_m, kLongestBaseline_m);
+  result.image.width = root.required_integer("image_width", 1, kMaxWidth_px);
+  result.image.height = root.required_integer("image_height", 1, kMaxWidth_px);
+  result.baseline_m = root.required_number("baseline_m", kMinBaseline_m, kMaxBaseline_m);
   result.left = read_camera(root.required_section("left"), result.image);
   result.right = read_camera(root.required_section("right"), result.image);
   result.quality = read_quality(root.required_section("quality"));
@@ -131,7 +131,7 @@ std::string calibration_text(const Calibration& calibration) {
       << "  # of the cameras' images and of the rectified ones, pixels\n";
   out << "image_height: " << calibration.image.height << "\n";
   out << "baseline_m: " << digits(calibration.baseline_m)
-      << "  # from the left camera to the right one, metres\n";
+      << "  # from the left camera to the right one, meters\n";
   write_camera(out, "left", calibration.left);
   write_camera(out, "right", calibration.right);
   const CalibrationQuality& quality = calibration.quality;

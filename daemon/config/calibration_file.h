@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/calibration.h"
-#include "daemon/config/file_error.h"
+#include "core/geometry/calibration.h"
+#include "daemon/base/file_error.h"
 
 namespace stereod {
 

@@ -14,8 +14,8 @@
 namespace stereod {
 namespace {
 
-constexpr int kMostCpus = 1024;             // of the C library's sets of CPUs
-constexpr std::size_t kLongestPrefix = 40;  // LCM's channel names have at most 63 characters
+constexpr int kMaxCpus = 1024;          // of the C library's sets of CPUs
+constexpr std::size_t kMaxPrefix = 40;  // LCM's channel names have at most 63 characters
 
 std::optional<SourceKind> parse_source_kind(std::string_view name) {
   if (name == "v4l2") return SourceKind::kV4l2;
@@ -28,18 +28,18 @@ std::optional<SourceKind> parse_source_kind(std::string_view name) {
 void read_replay(YamlSection section, CamerasConfig& cameras) {
   cameras.replay_left = section.file_name("left");
   cameras.replay_right = section.file_name("right");
-  cameras.replay_folder = section.file_name("folder");
+  cameras.replay_directory = section.file_name("directory");
   cameras.replay_loop = section.flag("loop", cameras.replay_loop);
   section.finish();
   const bool pair = !cameras.replay_left.empty() && !cameras.replay_right.empty();
   const bool half = cameras.replay_left.empty() != cameras.replay_right.empty();
-  if (half || pair != cameras.replay_folder.empty()) {
-    section.fail("left",
-                 "found " +
-                     std::string(half   ? "one of left and right"
-                                 : pair ? "both a pair and a folder"
-                                        : "nothing to play") +
-                     ", allowed are either left and right, two pictures, or folder, one with numbered pairs");
+  if (half || pair != cameras.replay_directory.empty()) {
+    section.fail(
+        "left", "found " +
+                    std::string(half   ? "one of left and right"
+                                : pair ? "both a pair and a directory"
+                                       : "nothing to play") +
+                    ", allowed are either left and right, two images, or directory, one with numbered pairs");
   }
 }
 
@@ -85,7 +85,7 @@ void read_cameras(YamlSection section, CamerasConfig& cameras) {
 void read_rectify(YamlSection section, RectifyConfig& rectify) {
   rectify.interpolation = section.choice<Interpolation>("interpolation", rectify.interpolation,
                                                         "nearest and bilinear", parse_interpolation);
-  if (section.has("zoom")) rectify.zoom = section.number("zoom", 0, 0, 1);
+  if (section.has("alpha")) rectify.alpha = section.number("alpha", 0, 0, 1);
   section.finish();
 }
 
@@ -98,7 +98,7 @@ void refuse_keys_of_other_method(YamlSection& section, Method method) {
   if (method == Method::kSemiglobal) {
     for (const char* key : {"window", "texture_threshold", "cost", "cache"}) refuse(key, "block");
   } else {
-    for (const char* key : {"grid", "p1", "p2", "census_weight", "gradient_limit", "fill"}) {
+    for (const char* key : {"grid", "p1", "p2", "census_weight", "gradient_limit", "hole_filling"}) {
       refuse(key, "semiglobal");
     }
   }
@@ -110,7 +110,7 @@ void read_semiglobal(YamlSection& section, MatcherOptions& options) {
   options.p2 = section.integer("p2", options.p2, 0, 255);
   options.census_weight = section.integer("census_weight", options.census_weight, 0, 16);
   options.gradient_limit = section.integer("gradient_limit", options.gradient_limit, 0, 64);
-  options.fill = section.flag("fill", options.fill);
+  options.hole_filling = section.flag("hole_filling", options.hole_filling);
 }
 
 void read_matcher(YamlSection section, MatcherOptions& options) {
@@ -166,7 +166,7 @@ std::optional<std::vector<int>> parse_cpus(std::string_view text) {
     } else if (std::sscanf(part.c_str(), "%d-%d%n", &first, &last, &length) != 2 || !whole()) {
       return std::nullopt;
     }
-    if (first < 0 || last < first || last >= kMostCpus) return std::nullopt;
+    if (first < 0 || last < first || last >= kMaxCpus) return std::nullopt;
     for (int cpu = first; cpu <= last; ++cpu) cpus.push_back(cpu);
   }
   return cpus;
@@ -186,20 +186,20 @@ void read_lcm(YamlSection section, LcmConfig& lcm) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == '.';
   });
-  if (lcm.prefix.empty() || lcm.prefix.size() > kLongestPrefix || !plain) {
-    section.fail("prefix", "found '" + lcm.prefix + "', allowed are 1 to " + std::to_string(kLongestPrefix) +
+  if (lcm.prefix.empty() || lcm.prefix.size() > kMaxPrefix || !plain) {
+    section.fail("prefix", "found '" + lcm.prefix + "', allowed are 1 to " + std::to_string(kMaxPrefix) +
                                " letters, digits, '_', '-' and '.'");
   }
   if (section.text("rows_per_message", "auto") != "auto") {
     lcm.rows_per_message = section.integer("rows_per_message", 0, 1, 4096);
   }
-  lcm.spread = section.number("spread", lcm.spread, 0, 0.9);
+  lcm.pacing = section.number("pacing", lcm.pacing, 0, 0.9);
   lcm.raw_images = section.flag("raw_images", lcm.raw_images);
   lcm.raw_images_per_second = section.number("raw_images_per_second", lcm.raw_images_per_second, 0.1, 60);
   LeftImageConfig& left = lcm.left_image;
   const std::string form = section.text("left_image", "off");
-  if (form != "off" && form != "jpeg" && form != "grey") {
-    section.fail("left_image", "found '" + form + "', allowed are off, jpeg and grey");
+  if (form != "off" && form != "jpeg" && form != "gray") {
+    section.fail("left_image", "found '" + form + "', allowed are off, jpeg and gray");
   }
   left.enabled = form != "off";
   left.jpeg = form == "jpeg";

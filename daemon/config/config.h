@@ -8,16 +8,16 @@
 #include <string_view>
 #include <vector>
 
-#include "core/match/matcher_options.h"
-#include "core/obstacle_scan.h"
-#include "core/rectify_map.h"
+#include "core/match/options.h"
+#include "core/perception/obstacle_scan.h"
+#include "core/rectify/rectify_map.h"
 
 namespace stereod {
 
 /// Where frames come from.
 enum class SourceKind {
   kV4l2,       ///< two cameras
-  kReplay,     ///< recorded pictures
+  kReplay,     ///< recorded images
   kSynthetic,  ///< a rendered scene with known depth
   kLog,        ///< raw images in an LCM log
 };
@@ -36,8 +36,8 @@ enum class ExposureMode {
 };
 
 /// When the right camera is restarted so that both expose at the same time.
-enum class AlignMode {
-  kNever,
+enum class SyncMode {
+  kNone,
   kStart,   ///< when both have begun to stream
   kAlways,  ///< also when they have drifted apart
 };
@@ -52,9 +52,9 @@ struct V4l2Config {
   std::string format = "auto";
   ExposureMode exposure = ExposureMode::kFollow;
   ControlValues controls, left_controls, right_controls;  ///< of both, and of one camera more
-  AlignMode align = AlignMode::kStart;
-  double target_skew_ms = 3;
-  int align_tries = 8;
+  SyncMode sync = SyncMode::kStart;
+  double max_sync_skew_ms = 3;
+  int sync_attempts = 8;
   friend bool operator==(const V4l2Config&, const V4l2Config&) = default;
 };
 
@@ -64,8 +64,8 @@ struct CamerasConfig {
   double max_skew_ms = 0;  ///< tolerance of pairing; 0 stands for half a frame
   V4l2Config v4l2;
   // source: replay
-  std::filesystem::path replay_left, replay_right;  ///< one pair of pictures, or
-  std::filesystem::path replay_folder;              ///< a folder of numbered pairs
+  std::filesystem::path replay_left, replay_right;  ///< one pair of images, or
+  std::filesystem::path replay_directory;           ///< a directory of numbered pairs
   bool replay_loop = true;
   // source: log
   std::filesystem::path log_file;
@@ -83,13 +83,13 @@ struct CamerasConfig {
 
 struct RectifyConfig {
   Interpolation interpolation = Interpolation::kBilinear;
-  std::optional<double> zoom;  ///< see zoomed(); nothing: as the calibration has it
+  std::optional<double> alpha;  ///< see with_alpha(); nothing: as the calibration has it
 };
 
 /// The rectified left image on the wire.
 struct LeftImageConfig {
   bool enabled = false;
-  bool jpeg = true;  ///< false: every grey value, in several datagrams
+  bool jpeg = true;  ///< false: every gray value, in several datagrams
   double per_second = 15;
 };
 
@@ -97,7 +97,7 @@ struct LcmConfig {
   std::string url;                      ///< empty: LCM_DEFAULT_URL, or this machine only
   std::string prefix = "STEREO";        ///< of every channel
   std::optional<int> rows_per_message;  ///< nothing (auto): usual_rows_per_message()
-  double spread = 0.3;                  ///< share of the frame time over which a frame's rows are spread out
+  double pacing = 0.3;                  ///< share of the frame time over which a frame's rows are spread out
   bool raw_images = false;              ///< publish what the cameras see
   double raw_images_per_second = 2;
   LeftImageConfig left_image;
@@ -105,12 +105,12 @@ struct LcmConfig {
 
 /// What of the disparity is published.
 struct PublishConfig {
-  int left = 0, top = 0;              ///< first column and row of the rectified image, px
-  int width = 0, height = 0;          ///< px of the rectified image; 0: up to its edge
-  int column_step = 1, row_step = 1;  ///< every so many-th
-  bool depth = false;                 ///< depth in millimetres
-  bool cloud = false;                 ///< points
-  int cloud_step = 8;                 ///< of every so many-th column and row
+  int left = 0, top = 0;                   ///< first column and row of the rectified image, px
+  int width = 0, height = 0;               ///< px of the rectified image; 0: up to its edge
+  int decimation_x = 1, decimation_y = 1;  ///< every so many-th
+  bool depth = false;                      ///< depth in millimeters
+  bool cloud = false;                      ///< points
+  int cloud_decimation = 8;                ///< of every so many-th column and row
 };
 
 struct ScanConfig {

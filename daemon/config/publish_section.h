@@ -6,7 +6,7 @@
 
 namespace stereod {
 
-/// Reads the section `publish`. Throws FileError. Whether a region fits the pictures is not known here.
+/// Reads the section `publish`. Throws FileError. Whether a region fits the images is not known here.
 void read_publish_section(YamlSection section, PublishConfig& publish);
 
 }  // namespace stereod

@@ -7,7 +7,7 @@
 namespace stereod {
 namespace {
 
-constexpr std::array<std::string_view, 9> kFormats{"auto", "grey", "nv12", "yu12", "yuyv",
+constexpr std::array<std::string_view, 9> kFormats{"auto", "gray", "nv12", "yu12", "yuyv",
                                                    "uyvy", "y10",  "y16",  "mjpeg"};
 
 std::optional<std::string> parse_format(std::string_view name) {
@@ -22,10 +22,10 @@ std::optional<ExposureMode> parse_exposure(std::string_view name) {
   return std::nullopt;
 }
 
-std::optional<AlignMode> parse_align(std::string_view name) {
-  if (name == "never") return AlignMode::kNever;
-  if (name == "start") return AlignMode::kStart;
-  if (name == "always") return AlignMode::kAlways;
+std::optional<SyncMode> parse_sync(std::string_view name) {
+  if (name == "never") return SyncMode::kNone;
+  if (name == "start") return SyncMode::kStart;
+  if (name == "always") return SyncMode::kAlways;
   return std::nullopt;
 }
 
@@ -86,7 +86,7 @@ void read_v4l2_section(YamlSection& cameras_section, CamerasConfig& cameras) {
   v4l2.width = section.integer("width", v4l2.width, 64, 4096);
   v4l2.height = section.integer("height", v4l2.height, 48, 4096);
   v4l2.format = section.choice<std::string>(
-      "format", v4l2.format, "auto, grey, nv12, yu12, yuyv, uyvy, y10, y16 and mjpeg", parse_format);
+      "format", v4l2.format, "auto, gray, nv12, yu12, yuyv, uyvy, y10, y16 and mjpeg", parse_format);
   v4l2.exposure =
       section.choice<ExposureMode>("exposure", v4l2.exposure, "auto, lock and follow", parse_exposure);
   v4l2.controls = section.integers("controls");
@@ -95,9 +95,9 @@ void read_v4l2_section(YamlSection& cameras_section, CamerasConfig& cameras) {
   check_modes(section, v4l2.controls, v4l2.exposure);
   check_own_controls(section, "left_controls", v4l2.left_controls, v4l2.exposure);
   check_own_controls(section, "right_controls", v4l2.right_controls, v4l2.exposure);
-  v4l2.align = section.choice<AlignMode>("align", v4l2.align, "never, start and always", parse_align);
-  v4l2.target_skew_ms = section.number("target_skew_ms", v4l2.target_skew_ms, 0.1, 100);
-  v4l2.align_tries = section.integer("align_tries", v4l2.align_tries, 1, 100);
+  v4l2.sync = section.choice<SyncMode>("sync", v4l2.sync, "never, start and always", parse_sync);
+  v4l2.max_sync_skew_ms = section.number("max_sync_skew_ms", v4l2.max_sync_skew_ms, 0.1, 100);
+  v4l2.sync_attempts = section.integer("sync_attempts", v4l2.sync_attempts, 1, 100);
   section.finish();
   if (cameras.source == SourceKind::kV4l2 && cameras.fps < 1) {
     cameras_section.fail("fps", "found a rate below 1, allowed for cameras are 1 to 240");

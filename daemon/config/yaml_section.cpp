@@ -42,17 +42,17 @@ YAML::Node load_yaml_map(const std::filesystem::path& file) {
     if (!error) throw FileError(file.string() + ": there is no such file");
     throw FileError(
         file.string() + ": cannot be reached (" + error.message() +
-        "); stereod must be allowed into its folder, and as a service it is kept out of home directories");
+        "); stereod must be allowed into its directory, and as a service it is kept out of home directories");
   }
   if (std::filesystem::is_directory(file, error))
-    throw FileError(file.string() + ": this is a folder, not a file");
-  constexpr std::size_t kLargestFile = 1'000'000;  // bytes; a longer one is no configuration
+    throw FileError(file.string() + ": this is a directory, not a file");
+  constexpr std::size_t kMaxFile = 1'000'000;  // bytes; a longer one is no configuration
   std::ifstream in(file);
-  std::string text(kLargestFile + 1, '\0');
+  std::string text(kMaxFile + 1, '\0');
   if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!in && !in.eof()) throw FileError(file.string() + ": cannot be read; check its permissions");
   text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kLargestFile)
+  if (text.size() > kMaxFile)
     throw FileError(file.string() + ": is longer than a megabyte; this is no configuration");
   try {
     YAML::Node root = YAML::Load(text);

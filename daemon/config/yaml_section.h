@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/config/file_error.h"
+#include "daemon/base/file_error.h"
 
 namespace stereod {
 
@@ -35,7 +35,7 @@ class YamlSection {
   double number(const std::string& key, double otherwise, double least, double most);
   bool flag(const std::string& key, bool otherwise);
   std::string text(const std::string& key, const std::string& otherwise);
-  /// A file's name; a relative one is relative to the folder of this file. Empty if the key is not there.
+  /// A file's name; a relative one is relative to the directory of this file. Empty if the key is not there.
   std::filesystem::path file_name(const std::string& key);
   /// A value that `parse` knows; `allowed` lists all of them for the message.
   template <typename Value>

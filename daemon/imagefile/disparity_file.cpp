@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "daemon/config/file_error.h"
+#include "daemon/base/file_error.h"
 #include "daemon/imagefile/pfm_file.h"
 #include "daemon/imagefile/write_image.h"
 
@@ -12,7 +12,7 @@ namespace stereod {
 
 namespace {
 
-constexpr int kLargestKittiValue = 65535;
+constexpr int kMaxKittiValue = 65535;
 
 int kitti_value(std::int16_t disparity, int units_per_pixel) {
   if (disparity < 0) return 0;
@@ -42,7 +42,7 @@ void write_disparity_png(const std::filesystem::path& path, DisparityView dispar
   for (int y = 0; y < disparity.height(); ++y) {
     for (int x = 0; x < disparity.width(); ++x) {
       const int value = kitti_value(disparity.at(x, y), units_per_pixel);
-      if (value > kLargestKittiValue) {
+      if (value > kMaxKittiValue) {
         throw FileError(path.string() + ": a disparity of " + std::to_string(value / 256) +
                         " px was found, and a KITTI PNG holds less than 256; write a .pfm file instead");
       }

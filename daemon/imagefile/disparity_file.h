@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "core/disparity.h"
+#include "core/match/disparity.h"
 
 namespace stereod {
 

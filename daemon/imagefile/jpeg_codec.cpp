@@ -6,7 +6,7 @@
 #include <new>
 #include <type_traits>
 
-#include "daemon/config/file_error.h"
+#include "daemon/base/file_error.h"
 
 namespace stereod {
 
@@ -28,8 +28,8 @@ bool looks_like_jpeg(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
-DecodedPicture decode_jpeg(const std::string& file, std::span<const std::uint8_t> bytes,
-                           JpegChannels channels) {
+DecodedImage decode_jpeg(const std::string& file, std::span<const std::uint8_t> bytes,
+                         JpegChannels channels) {
   const Decoder decoder(tjInitDecompress());
   if (decoder == nullptr) throw std::bad_alloc();
   const auto length = static_cast<unsigned long>(bytes.size());
@@ -43,10 +43,10 @@ DecodedPicture decode_jpeg(const std::string& file, std::span<const std::uint8_t
   }
   check_picture_size(file, width, height);
   if (colorspace == TJCS_CMYK || colorspace == TJCS_YCCK) {
-    throw FileError(file + ": is a CMYK JPEG; only grey and RGB ones are read");
+    throw FileError(file + ": is a CMYK JPEG; only gray and RGB ones are read");
   }
   const bool luma = channels == JpegChannels::kLuma;
-  DecodedPicture picture({width, height}, luma ? 1 : 3, 255);
+  DecodedImage picture({width, height}, luma ? 1 : 3, 255);
   // Some files have thousands of empty progressive scans, only to keep a reader busy: libjpeg stops at 500.
   constexpr int kFlags = TJFLAG_LIMITSCANS;
   if (tjDecompress2(decoder.get(), bytes.data(), length, picture.samples.data(), width, 0, height,

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "daemon/imagefile/decoded_picture.h"
+#include "daemon/imagefile/decoded_image.h"
 
 namespace stereod {
 
@@ -17,8 +17,7 @@ enum class JpegChannels {
 };
 
 /// Any 8-bit JPEG but CMYK; an orientation tag is ignored. Throws FileError, its sentence beginning with
-/// `file`, also where libjpeg would deliver a picture that is grey from the place of the damage on.
-DecodedPicture decode_jpeg(const std::string& file, std::span<const std::uint8_t> bytes,
-                           JpegChannels channels);
+/// `file`, also where libjpeg would deliver a image that is gray from the place of the damage on.
+DecodedImage decode_jpeg(const std::string& file, std::span<const std::uint8_t> bytes, JpegChannels channels);
 
 }  // namespace stereod

@@ -13,7 +13,7 @@ JpegEncoder::JpegEncoder(Size size, int quality)
 
 JpegEncoder::~JpegEncoder() { tjDestroy(turbo_); }
 
-std::span<const std::uint8_t> JpegEncoder::encode(GreyView picture) noexcept {
+std::span<const std::uint8_t> JpegEncoder::encode(GrayView picture) noexcept {
   unsigned char* out = bytes_.data();
   unsigned long size = bytes_.size();
   const int result =

@@ -1,15 +1,15 @@
-// Grey pictures as JPEG, again and again, by libjpeg-turbo.
+// Gray images as JPEG, again and again, by libjpeg-turbo.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/image.h"
+#include "core/base/image.h"
 
 namespace stereod {
 
-/// Encodes pictures of one size. Keeps its memory from picture to picture.
+/// Encodes images of one size. Keeps its memory from image to image.
 class JpegEncoder {
  public:
   /// `quality`: 1…100. Throws std::bad_alloc.
@@ -19,7 +19,7 @@ class JpegEncoder {
   JpegEncoder& operator=(const JpegEncoder&) = delete;
 
   /// The whole file, valid until the next call; empty if libjpeg fails.
-  std::span<const std::uint8_t> encode(GreyView picture) noexcept;
+  std::span<const std::uint8_t> encode(GrayView picture) noexcept;
 
  private:
   void* turbo_;

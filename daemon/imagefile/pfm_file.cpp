@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/config/file_error.h"
-#include "daemon/imagefile/decoded_picture.h"
-#include "daemon/imagefile/file_bytes.h"
+#include "daemon/base/file.h"
+#include "daemon/base/file_error.h"
+#include "daemon/imagefile/decoded_image.h"
 
 namespace stereod {
 
@@ -70,7 +70,7 @@ Image<float> read_pfm(const std::filesystem::path& path) {
   const std::vector<std::uint8_t> bytes = read_file_bytes(path);
   std::size_t next = 0;
   const std::string_view magic = next_word(bytes, next);
-  if (magic == "PF") throw FileError(file + ": is a colour PFM; a grey one (Pf) is needed");
+  if (magic == "PF") throw FileError(file + ": is a color PFM; a gray one (Pf) is needed");
   if (magic != "Pf") throw FileError(file + ": is no PFM; the file must begin with Pf");
   const int width = number_from<int>(file, next_word(bytes, next), "width");
   const int height = number_from<int>(file, next_word(bytes, next), "height");
@@ -82,7 +82,7 @@ Image<float> read_pfm(const std::filesystem::path& path) {
 
   const std::size_t row_bytes = 4 * static_cast<std::size_t>(width);
   if (bytes.size() - next < row_bytes * static_cast<std::size_t>(height)) {
-    throw FileError(file + ": the PFM file is truncated; it ends before its picture does");
+    throw FileError(file + ": the PFM file is truncated; it ends before its image does");
   }
   const bool swap = (scale < 0) != kLittleEndianHost;
   Image<float> picture(width, height);

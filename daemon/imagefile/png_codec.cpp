@@ -7,7 +7,7 @@
 #include <cstring>
 #include <new>
 
-#include "daemon/config/file_error.h"
+#include "daemon/base/file_error.h"
 
 namespace stereod {
 
@@ -90,7 +90,7 @@ class PngReader {
     return run_guarded(png_, [&] { png_read_info(png_, info_); });
   }
 
-  /// Asks for what DecodedPicture can hold; the header has been read.
+  /// Asks for what DecodedImage can hold; the header has been read.
   bool choose_layout() {
     return run_guarded(png_, [&] {
       if (png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png_);
@@ -112,11 +112,11 @@ class PngReader {
 
   long long width() const { return png_get_image_width(png_, info_); }
   long long height() const { return png_get_image_height(png_, info_); }
-  /// Of the file's own pixels at first, of DecodedPicture's after choose_layout().
+  /// Of the file's own pixels at first, of DecodedImage's after choose_layout().
   std::size_t row_bytes() const { return png_get_rowbytes(png_, info_); }
   int channels() const { return png_get_channels(png_, info_); }
   int max_value() const {
-    // Grey of fewer than 8 bits keeps its small values; palettes have 8-bit colours whatever their index.
+    // Gray of fewer than 8 bits keeps its small values; palettes have 8-bit colors whatever their index.
     return channels() == 1 ? (1 << depth_in_file_) - 1 : (1 << png_get_bit_depth(png_, info_)) - 1;
   }
 
@@ -127,7 +127,7 @@ class PngReader {
 };
 
 [[noreturn]] void throw_read_error(const std::string& file, const ReadState& state) {
-  if (state.ran_out) throw FileError(file + ": the PNG file is truncated; it ends before its picture does");
+  if (state.ran_out) throw FileError(file + ": the PNG file is truncated; it ends before its image does");
   throw FileError(file + ": the PNG file is damaged (libpng: " + state.message + ")");
 }
 
@@ -180,7 +180,7 @@ std::vector<std::uint8_t> encode(const std::string& file, ImageView<const Pixel>
   state.bytes = &bytes;
   PngWriter writer(state);
   if (!writer.write(picture.size(), depth, color_type, rows)) {
-    throw FileError(file + ": the picture cannot be written as PNG (libpng: " + state.message + ")");
+    throw FileError(file + ": the image cannot be written as PNG (libpng: " + state.message + ")");
   }
   return bytes;
 }
@@ -191,7 +191,7 @@ bool looks_like_png(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= 8 && png_sig_cmp(bytes.data(), 0, 8) == 0;
 }
 
-DecodedPicture decode_png(const std::string& file, std::span<const std::uint8_t> bytes) {
+DecodedImage decode_png(const std::string& file, std::span<const std::uint8_t> bytes) {
   ReadState state;
   state.next = bytes.data();
   state.left = bytes.size();
@@ -206,7 +206,7 @@ DecodedPicture decode_png(const std::string& file, std::span<const std::uint8_t>
   if (!reader.choose_layout()) throw_read_error(file, state);
 
   const Size size{static_cast<int>(reader.width()), static_cast<int>(reader.height())};
-  DecodedPicture picture(size, reader.channels(), reader.max_value());
+  DecodedImage picture(size, reader.channels(), reader.max_value());
   if (reader.row_bytes() != picture.row_bytes()) {
     throw FileError(file + ": the PNG file has a pixel layout that is not supported");
   }
@@ -219,16 +219,16 @@ DecodedPicture decode_png(const std::string& file, std::span<const std::uint8_t>
   return picture;
 }
 
-std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const std::uint8_t> grey) {
-  return encode(file, grey, 8, PNG_COLOR_TYPE_GRAY);
+std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const std::uint8_t> gray) {
+  return encode(file, gray, 8, PNG_COLOR_TYPE_GRAY);
 }
 
 std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const Rgb> color) {
   return encode(file, color, 8, PNG_COLOR_TYPE_RGB);
 }
 
-std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const std::uint16_t> grey) {
-  return encode(file, grey, 16, PNG_COLOR_TYPE_GRAY);
+std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const std::uint16_t> gray) {
+  return encode(file, gray, 16, PNG_COLOR_TYPE_GRAY);
 }
 
 }  // namespace stereod

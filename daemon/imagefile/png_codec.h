@@ -6,21 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "core/image.h"
-#include "daemon/imagefile/decoded_picture.h"
+#include "core/base/image.h"
+#include "daemon/imagefile/decoded_image.h"
 
 namespace stereod {
 
 bool looks_like_png(std::span<const std::uint8_t> bytes);
 
-/// Any PNG: grey, colour or palette, 1 to 16 bits, interlaced or not. Grey keeps its depth (max_value says
-/// which), a palette becomes colour, transparency and gamma are ignored. Throws FileError, its sentence
+/// Any PNG: gray, color or palette, 1 to 16 bits, interlaced or not. Gray keeps its depth (max_value says
+/// which), a palette becomes color, transparency and gamma are ignored. Throws FileError, its sentence
 /// beginning with `file`.
-DecodedPicture decode_png(const std::string& file, std::span<const std::uint8_t> bytes);
+DecodedImage decode_png(const std::string& file, std::span<const std::uint8_t> bytes);
 
-/// The PNG file of a picture. Throws FileError if it is empty or has a side longer than kLargestSide.
-std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const std::uint8_t> grey);
+/// The PNG file of a image. Throws FileError if it is empty or has a side longer than kMaxImageFileSide.
+std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const std::uint8_t> gray);
 std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const Rgb> color);
-std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const std::uint16_t> grey);
+std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const std::uint16_t> gray);
 
 }  // namespace stereod

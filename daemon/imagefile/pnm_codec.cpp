@@ -1,6 +1,6 @@
 #include "daemon/imagefile/pnm_codec.h"
 
-#include "daemon/config/file_error.h"
+#include "daemon/base/file_error.h"
 
 namespace stereod {
 
@@ -17,7 +17,7 @@ class PnmParser {
     next_ = 2;
   }
 
-  DecodedPicture picture() {
+  DecodedImage picture() {
     const long width = number("width");
     const long height = number("height");
     check_picture_size(file_, width, height);
@@ -27,13 +27,13 @@ class PnmParser {
     }
     const bool color = kind_ == 3 || kind_ == 6;
     const bool plain = kind_ == 2 || kind_ == 3;
-    // A plain sample takes two bytes at least, so nothing is allocated for a picture that cannot be there.
+    // A plain sample takes two bytes at least, so nothing is allocated for a image that cannot be there.
     const std::size_t least_bytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                                     (color ? 3 : 1) * (plain || max_value > 255 ? 2 : 1);
     if (bytes_.size() - next_ < least_bytes) throw_truncated();
 
-    DecodedPicture result({static_cast<int>(width), static_cast<int>(height)}, color ? 3 : 1,
-                          static_cast<int>(max_value));
+    DecodedImage result({static_cast<int>(width), static_cast<int>(height)}, color ? 3 : 1,
+                        static_cast<int>(max_value));
     const std::size_t samples = result.samples.size() / static_cast<std::size_t>(result.sample_bytes);
     for (std::size_t i = 0; i < samples; ++i) {
       const long value = plain ? number("pixel value") : raw_value(result.sample_bytes);
@@ -89,7 +89,7 @@ class PnmParser {
 
   [[noreturn]] void throw_truncated() const {
     throw FileError(file_ + ": the " + (kind_ == 2 || kind_ == 5 ? "PGM" : "PPM") +
-                    " file is truncated; it ends before its picture does");
+                    " file is truncated; it ends before its image does");
   }
 
   const std::string& file_;
@@ -106,7 +106,7 @@ bool looks_like_pnm(std::span<const std::uint8_t> bytes) {
          (is_space(bytes[2]) || bytes[2] == '#');
 }
 
-DecodedPicture decode_pnm(const std::string& file, std::span<const std::uint8_t> bytes) {
+DecodedImage decode_pnm(const std::string& file, std::span<const std::uint8_t> bytes) {
   return PnmParser(file, bytes).picture();
 }
 

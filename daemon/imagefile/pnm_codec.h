@@ -5,15 +5,15 @@
 #include <span>
 #include <string>
 
-#include "daemon/imagefile/decoded_picture.h"
+#include "daemon/imagefile/decoded_image.h"
 
 namespace stereod {
 
 bool looks_like_pnm(std::span<const std::uint8_t> bytes);
 
-/// The first picture of the file: plain or raw, grey or colour, comments, maxval 1…65535. As the format
-/// demands, white space follows every number of a plain picture, the last one too: without it a truncated
+/// The first image of the file: plain or raw, gray or color, comments, maxval 1…65535. As the format
+/// demands, white space follows every number of a plain image, the last one too: without it a truncated
 /// number would pass for a smaller one. Throws FileError, its sentence beginning with `file`.
-DecodedPicture decode_pnm(const std::string& file, std::span<const std::uint8_t> bytes);
+DecodedImage decode_pnm(const std::string& file, std::span<const std::uint8_t> bytes);
 
 }  // namespace stereod

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "daemon/config/file_error.h"
-#include "daemon/imagefile/decoded_picture.h"
-#include "daemon/imagefile/file_bytes.h"
+#include "daemon/base/file.h"
+#include "daemon/base/file_error.h"
+#include "daemon/imagefile/decoded_image.h"
 #include "daemon/imagefile/jpeg_codec.h"
 #include "daemon/imagefile/png_codec.h"
 #include "daemon/imagefile/pnm_codec.h"
@@ -26,17 +26,17 @@ std::string printable_start(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
-DecodedPicture decode(const std::filesystem::path& path, JpegChannels jpeg_channels) {
+DecodedImage decode(const std::filesystem::path& path, JpegChannels jpeg_channels) {
   const std::string file = path.string();
   try {
     const std::vector<std::uint8_t> bytes = read_file_bytes(path);
     if (looks_like_png(bytes)) return decode_png(file, bytes);
     if (looks_like_jpeg(bytes)) return decode_jpeg(file, bytes, jpeg_channels);
     if (looks_like_pnm(bytes)) return decode_pnm(file, bytes);
-    throw FileError(file + ": is no picture that is known here (it begins with the bytes " +
+    throw FileError(file + ": is no image that is known here (it begins with the bytes " +
                     printable_start(bytes) + "); PNG, JPEG, PGM and PPM are");
   } catch (const std::bad_alloc&) {
-    throw FileError(file + ": there is not enough memory for a picture of its size");
+    throw FileError(file + ": there is not enough memory for a image of its size");
   }
 }
 
@@ -45,10 +45,10 @@ std::uint8_t to_8_bit(int value, int max_value) {
   return static_cast<std::uint8_t>((value * 255 + max_value / 2) / max_value);
 }
 
-Rgb color_at(const DecodedPicture& picture, std::size_t pixel) {
+Rgb color_at(const DecodedImage& picture, std::size_t pixel) {
   if (picture.channels == 1) {
-    const std::uint8_t grey = to_8_bit(picture.sample(pixel), picture.max_value);
-    return {grey, grey, grey};
+    const std::uint8_t gray = to_8_bit(picture.sample(pixel), picture.max_value);
+    return {gray, gray, gray};
   }
   return {to_8_bit(picture.sample(3 * pixel), picture.max_value),
           to_8_bit(picture.sample(3 * pixel + 1), picture.max_value),
@@ -69,34 +69,34 @@ Image<Pixel> fill_image(Size size, const PixelAt& pixel_at) {
 }  // namespace
 
 void check_picture_size(const std::string& file, long long width, long long height) {
-  if (width >= 1 && width <= kLargestSide && height >= 1 && height <= kLargestSide) return;
-  throw FileError(file + ": the picture has " + std::to_string(width) + "×" + std::to_string(height) +
-                  " pixels; 1 to " + std::to_string(kLargestSide) + " a side are allowed");
+  if (width >= 1 && width <= kMaxImageFileSide && height >= 1 && height <= kMaxImageFileSide) return;
+  throw FileError(file + ": the image has " + std::to_string(width) + "×" + std::to_string(height) +
+                  " pixels; 1 to " + std::to_string(kMaxImageFileSide) + " a side are allowed");
 }
 
-GreyImage read_grey(const std::filesystem::path& path) {
-  const DecodedPicture picture = decode(path, JpegChannels::kLuma);
+GrayImage read_gray(const std::filesystem::path& path) {
+  const DecodedImage picture = decode(path, JpegChannels::kLuma);
   if (picture.channels == 1) {
     return fill_image<std::uint8_t>(
         picture.size, [&](std::size_t pixel) { return to_8_bit(picture.sample(pixel), picture.max_value); });
   }
   return fill_image<std::uint8_t>(picture.size,
-                                  [&](std::size_t pixel) { return grey_of(color_at(picture, pixel)); });
+                                  [&](std::size_t pixel) { return gray_of(color_at(picture, pixel)); });
 }
 
 ColorImage read_color(const std::filesystem::path& path) {
-  const DecodedPicture picture = decode(path, JpegChannels::kRgb);
+  const DecodedImage picture = decode(path, JpegChannels::kRgb);
   return fill_image<Rgb>(picture.size, [&](std::size_t pixel) { return color_at(picture, pixel); });
 }
 
-Image<std::uint16_t> read_grey16(const std::filesystem::path& path) {
-  const DecodedPicture picture = decode(path, JpegChannels::kLuma);
+Image<std::uint16_t> read_gray16(const std::filesystem::path& path) {
+  const DecodedImage picture = decode(path, JpegChannels::kLuma);
   return fill_image<std::uint16_t>(picture.size, [&](std::size_t pixel) {
     const auto channels = static_cast<std::size_t>(picture.channels);
     const int value = picture.sample(pixel * channels);
     for (std::size_t other = 1; other < channels; ++other) {
       if (picture.sample(pixel * channels + other) != value) {
-        throw FileError(path.string() + ": is a colour picture; a grey one is needed");
+        throw FileError(path.string() + ": is a color image; a gray one is needed");
       }
     }
     return static_cast<std::uint16_t>(value);

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "daemon/pipeline/clocks.h"
+#include "daemon/base/clocks.h"
 
 namespace stereod {
 
 BandWorker::BandWorker(const MatcherOptions& options, Size size, ColumnRange wanted)
     : wanted_(wanted),
       matched_(columns_to_match(options, size, wanted)),
-      whole_row_(matched_.count() < size.width ? GreyImage(size.width, 1) : GreyImage()),
+      whole_row_(matched_.count() < size.width ? GrayImage(size.width, 1) : GrayImage()),
       matcher_(make_band_matcher(options, {matched_.count(), size.height})) {}
 
 void BandWorker::run(const Job& job, RowRange blocks) noexcept {
@@ -33,7 +33,7 @@ void BandWorker::run(const Job& job, RowRange blocks) noexcept {
 void BandWorker::rectify_rows(const Job& job, RowRange band, RowRange rows) noexcept {
   for (int y = rows.first; y < rows.end; ++y) {
     const std::uint8_t* left = rectify_row(job.left_map, job.pair.left, y, matcher_->left_row(y));
-    // Rows around the band are the neighbour's to copy.
+    // Rows around the band are the neighbor's to copy.
     if (job.left_image != nullptr && y >= band.first && y < band.end) {
       std::copy_n(left, job.left_image->width(), job.left_image->row(y));
     }
@@ -45,10 +45,10 @@ void BandWorker::rectify_rows(const Job& job, RowRange band, RowRange rows) noex
 const std::uint8_t* BandWorker::rectify_row(const RectifyMap& map, const FrameLease& frame, int y,
                                             std::uint8_t* out) noexcept {
   if (whole_row_.empty()) {
-    map.grey_row(frame.frame().luma.data, y, out);
+    map.gray_row(frame.frame().luma.data, y, out);
     return out;
   }
-  map.grey_row(frame.frame().luma.data, y, whole_row_.row(0));
+  map.gray_row(frame.frame().luma.data, y, whole_row_.row(0));
   std::copy_n(whole_row_.row(0) + matched_.first, matched_.count(), out);
   return whole_row_.row(0);
 }

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "core/match/band_matcher.h"
-#include "core/rectify_map.h"
-#include "daemon/pipeline/frame_publisher.h"
-#include "daemon/pipeline/pairing_desk.h"
-#include "daemon/pipeline/published_pixels.h"
+#include "core/rectify/rectify_map.h"
+#include "daemon/capture/pair_queue.h"
+#include "daemon/publish/frame_publisher.h"
+#include "daemon/publish/published_pixels.h"
 
 namespace stereod {
 
@@ -27,7 +27,7 @@ class BandWorker {
     const ValidityMask& right_mask;
     OutputFrame& output;
     FramePublisher& publisher;
-    GreyImage* left_image;  ///< gets the rectified left image; null: nobody wants it
+    GrayImage* left_image;  ///< gets the rectified left image; null: nobody wants it
     bool announce;  ///< rows are final once they are matched; false if a filter waits for the whole frame
   };
 
@@ -46,7 +46,7 @@ class BandWorker {
   void match_rows(const Job& job, RowRange rows) noexcept;
 
   const ColumnRange wanted_, matched_;
-  GreyImage whole_row_;  // if less than that is matched
+  GrayImage whole_row_;  // if less than that is matched
   std::unique_ptr<BandMatcher> matcher_;
   std::int64_t rectify_ns_ = 0, match_ns_ = 0;
   int next_block_ = 0;  // the next one to be announced

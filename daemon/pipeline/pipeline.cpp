@@ -4,19 +4,20 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/match/isa.h"
-#include "daemon/pipeline/clocks.h"
+#include "core/base/cpu.h"
+#include "daemon/base/clocks.h"
+#include "daemon/lcm/limits.h"
 #include "daemon/pipeline/worker_scheduling.h"
-#include "daemon/publish/wire_limits.h"
 
 namespace stereod {
 namespace {
 
-constexpr double kLongestSpread = 0.1;  // s; slow cameras need no more, and a stop should not wait for it
+constexpr double kMaxPacing = 0.1;  // s; slow cameras need no more, and a stop should not wait for it
 
-WireFormat wire_format(const Config& config, Size published) {
+WireFormat wire_format(const Config& config, Size published, const std::string& calibration_id = {}) {
   WireFormat format;
   format.prefix = config.lcm.prefix;
+  format.calibration_id = calibration_id;
   format.min_disparity = config.matcher.min_disparity;
   format.disparities = config.matcher.disparities;
   format.units_per_pixel = config.matcher.units_per_pixel();
@@ -24,7 +25,7 @@ WireFormat wire_format(const Config& config, Size published) {
   format.rows_per_message =
       config.lcm.rows_per_message.value_or(usual_rows_per_message(format, published.width));
   const double fps = config.cameras.fps > 0 ? config.cameras.fps : 30;
-  format.spread_s = std::min(config.lcm.spread / fps, kLongestSpread);
+  format.pacing_s = std::min(config.lcm.pacing / fps, kMaxPacing);
   return format;
 }
 
@@ -41,10 +42,10 @@ std::string describe(const Config& config) {
 
 // What is published of images of this size. Throws std::invalid_argument if there is no such region.
 PublishedPixels published_pixels(const PublishConfig& publish, Size size) {
-  if (size.width > kLargestImageSide || size.height > kLargestImageSide) {
+  if (size.width > kMaxImageSide || size.height > kMaxImageSide) {
     throw std::invalid_argument("the cameras give images of " + std::to_string(size.width) + "×" +
                                 std::to_string(size.height) + "; what can be published is " +
-                                std::to_string(kLargestImageSide) + " a side");
+                                std::to_string(kMaxImageSide) + " a side");
   }
   if (const auto problem = region_problem(publish, size)) throw std::invalid_argument(*problem);
   return {publish, size};
@@ -68,7 +69,7 @@ RowFollowers Pipeline::make_followers(MessageBus& bus) {
   RowFollowers followers;
   if (config_.scan.enabled) {
     followers.scan =
-        &scan_publisher_.emplace(bus, prefix, config_.scan, scan_camera(*calibration_, config_.matcher));
+        &scan_publisher_.emplace(bus, prefix, config_.scan, scan_geometry(*calibration_, config_.matcher));
   }
   if (config_.publish.depth) {
     followers.depth = &depth_publisher_.emplace(bus, prefix, *calibration_, config_.matcher, pixels_,
@@ -76,30 +77,31 @@ RowFollowers Pipeline::make_followers(MessageBus& bus) {
   }
   if (config_.publish.cloud) {
     followers.cloud = &cloud_publisher_.emplace(bus, prefix, *calibration_, config_.matcher, pixels_,
-                                                config_.publish.cloud_step);
+                                                config_.publish.cloud_decimation);
   }
   return followers;
 }
 
 // The braces see to it that the calibration is copied before the rig is moved.
-Pipeline::Pipeline(const Config& config, Rig rig, MessageBus& bus)
+Pipeline::Pipeline(const Config& config, StereoSource rig, MessageBus& bus)
     : Pipeline{config, std::optional<Calibration>(rig.calibration),
-               std::make_shared<Cameras>(config.cameras, std::move(rig)), bus} {
+               std::make_shared<StereoCapture>(config.cameras, std::move(rig)), bus} {
   cameras_->start();
   start();
 }
 
 Pipeline::Pipeline(const Config& config, std::optional<Calibration> calibration,
-                   std::shared_ptr<Cameras> cameras, MessageBus& bus)
+                   std::shared_ptr<StereoCapture> cameras, MessageBus& bus)
     : config_(config),
       cameras_(std::move(cameras)),
       calibration_(std::move(calibration)),
       size_(cameras_->rig().left->frame_size()),
       pixels_(published_pixels(config.publish, size_)),
       matcher_description_(describe(config)),
-      publisher_(bus, wire_format(config, pixels_.size()), size_, pixels_, make_followers(bus)),
+      publisher_(bus, wire_format(config, pixels_.size(), calibration_ ? calibration_->id : ""), size_,
+                 pixels_, make_followers(bus)),
       pool_(config.worker_count()),
-      alignment_monitor_(size_, config.matcher.min_disparity, config.matcher.disparities) {
+      epipolar_monitor_(size_, config.matcher.min_disparity, config.matcher.disparities) {
   for (int worker = 0; worker < pool_.workers(); ++worker) {
     workers_.emplace_back(config.matcher, size_, pixels_.columns());
   }
@@ -112,8 +114,8 @@ Pipeline::Pipeline(const Config& config, std::optional<Calibration> calibration,
   if (config.lcm.left_image.enabled) {
     left_publisher_.emplace(bus, config.lcm.prefix, config.lcm.left_image, size_);
   }
-  const auto left = cameras_->desk().layout(Side::kLeft);
-  const auto right = cameras_->desk().layout(Side::kRight);
+  const auto left = cameras_->pair_queue().layout(Side::kLeft);
+  const auto right = cameras_->pair_queue().layout(Side::kRight);
   if (left && right) prepare_maps(*left, *right);
 }
 
@@ -126,7 +128,7 @@ void Pipeline::start() {
 
 void Pipeline::take_over(Pipeline& other) {
   other.retire();
-  const PublisherFigures published = other.take_figures().published;
+  const PublisherStats published = other.take_stats().published;
   frames_before_ = published.frames;
   refused_before_ = published.messages_refused;
   next_frame_ = other.next_frame_;
@@ -143,7 +145,7 @@ void Pipeline::take_over(Pipeline& other) {
 // Ends the frame it is at and sends it all; the cameras go on.
 void Pipeline::retire() noexcept {
   retiring_ = true;
-  cameras_->desk().wake_taker();
+  cameras_->pair_queue().wake_consumer();
   if (matching_thread_.joinable()) matching_thread_.join();
   started_ = false;
 }
@@ -155,18 +157,18 @@ void Pipeline::stop() noexcept {
   if (raw_publisher_) raw_publisher_->stop();
   if (left_publisher_) left_publisher_->stop();
   if (matching_thread_.joinable()) matching_thread_.join();
-  if (started_) cameras_->desk().clear();  // the leases end before their sources do
+  if (started_) cameras_->pair_queue().clear();  // the leases end before their sources do
 }
 
 std::int64_t Pipeline::frames_published() const noexcept { return frames_before_ + publisher_.frames(); }
 
-PipelineFigures Pipeline::take_figures() {
-  PipelineFigures figures{cameras_->figures(), publisher_.take_figures(), alignment_monitor_.figures()};
-  figures.published.frames += frames_before_;
-  figures.published.messages_refused += refused_before_;
-  if (raw_publisher_) figures.published.messages_refused += raw_publisher_->refused();
-  if (left_publisher_) figures.published.messages_refused += left_publisher_->refused();
-  return figures;
+PipelineStats Pipeline::take_stats() {
+  PipelineStats stats{cameras_->stats(), publisher_.take_stats(), epipolar_monitor_.stats()};
+  stats.published.frames += frames_before_;
+  stats.published.messages_refused += refused_before_;
+  if (raw_publisher_) stats.published.messages_refused += raw_publisher_->refused();
+  if (left_publisher_) stats.published.messages_refused += left_publisher_->refused();
+  return stats;
 }
 
 std::string Pipeline::scheduling_problem() const {
@@ -180,7 +182,7 @@ void Pipeline::matching_thread() noexcept {
     scheduling_problem_ = schedule_workers(pool_, config_.scheduling);
   }
   while (OutputFrame* output = publisher_.wait_free()) {
-    std::optional<LeasedPair> pair = cameras_->desk().wait_pair(retiring_);
+    std::optional<LeasedPair> pair = cameras_->pair_queue().wait_pair(retiring_);
     if (!pair || stopping_) break;
     match_pair(*pair, *output);
   }
@@ -189,27 +191,26 @@ void Pipeline::matching_thread() noexcept {
 }
 
 void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
-  FrameFacts& facts = output.facts;
-  facts.frame = next_frame_++;
+  FrameTiming& timing = output.timing;
+  timing.frame = next_frame_++;
   const std::int64_t own_utime = pair.left.frame().utime;
-  facts.utime = own_utime != 0 ? own_utime : wall_us_of(pair.left_ns);
-  facts.left_ns = pair.left_ns;
-  facts.right_ns = pair.right_ns;
-  facts.left_sequence = pair.left.frame().sequence;
-  facts.right_sequence = pair.right.frame().sequence;
+  timing.utime = own_utime != 0 ? own_utime : wall_us_of(pair.left_ns);
+  timing.left_ns = pair.left_ns;
+  timing.right_ns = pair.right_ns;
+  timing.left_sequence = pair.left.frame().sequence;
+  timing.right_sequence = pair.right.frame().sequence;
   prepare_maps(layout_of(pair.left.frame().luma), layout_of(pair.right.frame().luma));
-  facts.started_ns = monotonic_ns();
+  timing.started_ns = monotonic_ns();
   run_workers(pair, output);
-  facts.filter_ns = 0;
+  timing.filter_ns = 0;
   if (speckle_filter_) filter_frame(output);
-  facts.matched_ns = monotonic_ns();
-  const std::int64_t match_ns = facts.matched_ns - facts.started_ns;
+  timing.matched_ns = monotonic_ns();
+  const std::int64_t match_ns = timing.matched_ns - timing.started_ns;
   publisher_.frame_final(output);
   // After what is urgent.
-  alignment_monitor_.frame_matched({*left_map_, *left_masks_.whole, pair.left.frame().luma.data},
-                                   {*right_map_, *right_masks_.whole, pair.right.frame().luma.data},
-                                   match_ns);
-  if (raw_publisher_) raw_publisher_->offer(pair, facts.utime);
+  epipolar_monitor_.frame_matched({*left_map_, *left_masks_.whole, pair.left.frame().luma.data},
+                                  {*right_map_, *right_masks_.whole, pair.right.frame().luma.data}, match_ns);
+  if (raw_publisher_) raw_publisher_->offer(pair, timing.utime);
 }
 
 // The tables are made when the first frame shows how its pixels lie in memory, and again if that ever
@@ -232,7 +233,7 @@ void Pipeline::prepare_maps(const SourceLayout& left, const SourceLayout& right)
 }
 
 void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {
-  GreyImage* const left_image = left_publisher_ ? left_publisher_->take_if_due() : nullptr;
+  GrayImage* const left_image = left_publisher_ ? left_publisher_->take_if_due() : nullptr;
   const BandWorker::Job job{pair,   *left_map_, *right_map_, left_masks_.matching(), right_masks_.matching(),
                             output, publisher_, left_image,  !speckle_filter_};
   const int blocks = publisher_.blocks();
@@ -245,14 +246,14 @@ void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {
     rectify_ns += workers_[static_cast<std::size_t>(band)].rectify_ns();
     match_ns += workers_[static_cast<std::size_t>(band)].match_ns();
   }
-  output.facts.rectify_ns = rectify_ns / bands;
-  output.facts.match_ns = match_ns / bands;
+  output.timing.rectify_ns = rectify_ns / bands;
+  output.timing.match_ns = match_ns / bands;
   if (left_image == nullptr) return;
   // The left image is a whole one, whatever was matched.
   const std::uint8_t* source = pair.left.frame().luma.data;
-  left_map_->grey_rows(source, {0, pixels_.rows().first}, left_image->view());
-  left_map_->grey_rows(source, {pixels_.rows().end, size_.height}, left_image->view());
-  left_publisher_->send(output.facts.utime);
+  left_map_->gray_rows(source, {0, pixels_.rows().first}, left_image->view());
+  left_map_->gray_rows(source, {pixels_.rows().end, size_.height}, left_image->view());
+  left_publisher_->send(output.timing.utime);
 }
 
 void Pipeline::filter_frame(OutputFrame& output) noexcept {
@@ -263,7 +264,7 @@ void Pipeline::filter_frame(OutputFrame& output) noexcept {
                                           region.height, output.disparity.view().stride());
   speckle_filter_->apply(published, options.speckle_size,
                          options.speckle_max_diff * options.units_per_pixel());
-  output.facts.filter_ns = monotonic_ns() - begin;
+  output.timing.filter_ns = monotonic_ns() - begin;
   for (int block = 0; block < publisher_.blocks(); ++block) publisher_.block_final(output, block);
 }
 

@@ -9,23 +9,23 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/worker_pool.h"
 #include "core/match/speckle.h"
-#include "core/worker_pool.h"
-#include "daemon/capture/rig.h"
+#include "daemon/capture/stereo_capture.h"
+#include "daemon/capture/stereo_source.h"
 #include "daemon/config/config.h"
-#include "daemon/pipeline/alignment_monitor.h"
 #include "daemon/pipeline/band_worker.h"
-#include "daemon/pipeline/cameras.h"
-#include "daemon/pipeline/frame_publisher.h"
-#include "daemon/pipeline/left_publisher.h"
-#include "daemon/pipeline/raw_publisher.h"
+#include "daemon/pipeline/epipolar_monitor.h"
+#include "daemon/publish/frame_publisher.h"
+#include "daemon/publish/left_publisher.h"
+#include "daemon/publish/raw_publisher.h"
 
 namespace stereod {
 
-/// What the pipeline did; see PublisherFigures for what "recent" means.
-struct PipelineFigures : CamerasFigures {
-  PublisherFigures published;
-  AlignmentFigures alignment;
+/// What the pipeline did; see PublisherStats for what "recent" means.
+struct PipelineStats : CaptureStats {
+  PublisherStats published;
+  EpipolarStats alignment;
 };
 
 /// Throws what the constructor of Pipeline would for frames of this size: std::invalid_argument with a
@@ -42,12 +42,12 @@ class Pipeline {
  public:
   /// Starts at once. The bus outlives it. Throws std::invalid_argument with a sentence if the configuration
   /// cannot work with frames of this size or on this CPU.
-  Pipeline(const Config& config, Rig rig, MessageBus& bus);
+  Pipeline(const Config& config, StereoSource rig, MessageBus& bus);
 
   /// Gets ready to take over from another pipeline, and throws as above. The cameras are that one's, or
   /// others that were not started yet.
-  Pipeline(const Config& config, std::optional<Calibration> calibration, std::shared_ptr<Cameras> cameras,
-           MessageBus& bus);
+  Pipeline(const Config& config, std::optional<Calibration> calibration,
+           std::shared_ptr<StereoCapture> cameras, MessageBus& bus);
   ~Pipeline();
 
   /// Lets the other pipeline end the frame it is at, stops its cameras if these are others, and starts. A
@@ -61,14 +61,14 @@ class Pipeline {
   bool finished() const noexcept { return finished_; }
 
   /// Nothing is to be done until the cameras bring a pair.
-  bool waits_for_cameras() const noexcept { return cameras_->desk().taker_waits(); }
+  bool waits_for_cameras() const noexcept { return cameras_->pair_queue().consumer_waits(); }
   /// Frames published since the start.
   std::int64_t frames_published() const noexcept;
 
-  PipelineFigures take_figures();
+  PipelineStats take_stats();
 
-  const Rig& rig() const { return cameras_->rig(); }
-  const std::shared_ptr<Cameras>& cameras() const { return cameras_; }
+  const StereoSource& rig() const { return cameras_->rig(); }
+  const std::shared_ptr<StereoCapture>& cameras() const { return cameras_; }
   const std::optional<Calibration>& calibration() const { return calibration_; }
   const Config& config() const { return config_; }
   /// For people: "semiglobal simd avx2, 2 workers".
@@ -87,7 +87,7 @@ class Pipeline {
   void filter_frame(OutputFrame& output) noexcept;
 
   const Config config_;
-  std::shared_ptr<Cameras> cameras_;
+  std::shared_ptr<StereoCapture> cameras_;
   const std::optional<Calibration> calibration_;
   const Size size_;
   const PublishedPixels pixels_;
@@ -110,7 +110,7 @@ class Pipeline {
   Masks left_masks_, right_masks_;
   mutable std::mutex scheduling_mutex_;
   std::string scheduling_problem_;
-  AlignmentMonitor alignment_monitor_;
+  EpipolarMonitor epipolar_monitor_;
   std::int64_t next_frame_ = 0;
   std::int64_t frames_before_ = 0,
                refused_before_ = 0;  // published by, and refused to, those taken over from

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/worker_pool.h"
+#include "core/base/worker_pool.h"
 #include "daemon/config/config.h"
 
 namespace stereod {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/match/isa.h"
-#include "daemon/config/file_error.h"
+#include "core/base/cpu.h"
+#include "daemon/base/file_error.h"
+#include "daemon/lcm/bus.h"
+#include "daemon/lcm/limits.h"
 #include "daemon/pipeline/pipeline.h"
-#include "daemon/publish/lcm_bus.h"
-#include "daemon/publish/wire_limits.h"
 
 namespace stereod {
 
@@ -28,7 +28,7 @@ void check_frame_size(const Config& config, const std::filesystem::path& file, S
   try {
     check_pipeline(config, size);
   } catch (const std::invalid_argument& error) {
-    const bool too_large = std::max(size.width, size.height) > kLargestImageSide;
+    const bool too_large = std::max(size.width, size.height) > kMaxImageSide;
     const bool outside = region_problem(config.publish, size).has_value();
     throw FileError(place_of(file, too_large ? "cameras"
                                    : outside ? "publish.region"
@@ -56,9 +56,9 @@ void check_calibration(const Config& config, const std::filesystem::path& file,
   refuse(config.publish.cloud, "publish.cloud");
 }
 
-Rig open_checked_rig(const Config& config, const std::filesystem::path& file) {
+StereoSource open_checked_rig(const Config& config, const std::filesystem::path& file) {
   check_config(config, file);
-  Rig rig = open_rig(config);
+  StereoSource rig = open_stereo_source(config);
   check_calibration(config, file, rig.calibration);
   check_frame_size(config, file, rig.left->frame_size());
   return rig;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "daemon/capture/rig.h"
+#include "daemon/capture/stereo_source.h"
 #include "daemon/config/config.h"
 
 namespace stereod {
@@ -21,7 +21,7 @@ void check_calibration(const Config& config, const std::filesystem::path& file,
                        const std::optional<Calibration>& calibration);
 
 /// Finds everything that can never work before anything touches the network, which may only be late: these
-/// checks and open_rig(). Throws FileError.
-Rig open_checked_rig(const Config& config, const std::filesystem::path& file);
+/// checks and open_stereo_source(). Throws FileError.
+StereoSource open_checked_rig(const Config& config, const std::filesystem::path& file);
 
 }  // namespace stereod

@@ -50,7 +50,7 @@ class SystemdPriority final : public spdlog::custom_flag_formatter {
 class UnblockedStderr final : public spdlog::sinks::base_sink<std::mutex> {
  private:
   // A pipe that is ready takes at least this much at once (POSIX, PIPE_BUF on Linux).
-  static constexpr std::size_t kLongestLine = 4096;
+  static constexpr std::size_t kMaxLine = 4096;
 
   void sink_it_(const spdlog::details::log_msg& message) override {
     spdlog::memory_buf_t line;
@@ -66,7 +66,7 @@ class UnblockedStderr final : public spdlog::sinks::base_sink<std::mutex> {
   static bool write_line(const std::string& line) {
     pollfd ready{STDERR_FILENO, POLLOUT, 0};
     if (poll(&ready, 1, 0) != 1 || (ready.revents & POLLOUT) == 0) return false;
-    return write(STDERR_FILENO, line.data(), std::min(line.size(), kLongestLine)) > 0;
+    return write(STDERR_FILENO, line.data(), std::min(line.size(), kMaxLine)) > 0;
   }
 
   long dropped_ = 0;

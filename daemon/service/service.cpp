@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "daemon/pipeline/clocks.h"
-#include "daemon/publish/lcm_url.h"
+#include "daemon/base/clocks.h"
+#include "daemon/lcm/url.h"
 #include "daemon/service/checks.h"
 #include "daemon/service/log.h"
 #include "daemon/service/status_line.h"
@@ -39,7 +39,7 @@ std::string in_words(const Pipeline& pipeline) {
 
 Service::Service(Config config, std::filesystem::path file, OpenBus open_bus)
     : file_(std::move(file)), open_bus_(std::move(open_bus)), config_(std::move(config)) {
-  Rig rig = open_checked_rig(config_, file_);
+  StereoSource rig = open_checked_rig(config_, file_);
   bus_ = open_bus_(config_.lcm.url);
   pipeline_ = std::make_unique<Pipeline>(config_, std::move(rig), *bus_);
   reporter_ = std::make_unique<StatusReporter>(*pipeline_, *bus_);
@@ -91,16 +91,16 @@ void Service::reload() {
 void Service::adopt(const Config& config) {
   check_config(config, file_);
   const bool keep_cameras = same_cameras(config_.cameras, config.cameras);
-  std::shared_ptr<Cameras> cameras = pipeline_->cameras();
+  std::shared_ptr<StereoCapture> cameras = pipeline_->cameras();
   std::optional<Calibration> calibration;
   if (keep_cameras) {
     check_frame_size(config, file_, cameras->rig().left->frame_size());
     calibration = calibration_for(config, cameras->rig());
     check_calibration(config, file_, calibration);
   } else {
-    Rig rig = open_checked_rig(config, file_);
+    StereoSource rig = open_checked_rig(config, file_);
     calibration = rig.calibration;
-    cameras = std::make_shared<Cameras>(config.cameras, std::move(rig));
+    cameras = std::make_shared<StereoCapture>(config.cameras, std::move(rig));
   }
   std::unique_ptr<MessageBus> bus;
   if (effective_lcm_url(config.lcm.url) != effective_lcm_url(config_.lcm.url))

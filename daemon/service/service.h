@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "daemon/lcm/message_bus.h"
 #include "daemon/pipeline/pipeline.h"
-#include "daemon/publish/message_bus.h"
 #include "daemon/service/service_manager.h"
 #include "daemon/service/status_reporter.h"
 

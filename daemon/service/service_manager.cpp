@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "daemon/pipeline/clocks.h"
+#include "daemon/base/clocks.h"
 
 namespace stereod {
 

@@ -18,10 +18,10 @@ std::string state_in_words(const std::string& state) {
 std::string status_line(const status_t& status) {
   std::string line = state_in_words(status.state);
   if (status.fps_out > 0) {
-    char figures[100];
-    std::snprintf(figures, sizeof figures, ": %.1f frames a second, %.0f ms from exposure to the last row",
+    char stats[100];
+    std::snprintf(stats, sizeof stats, ": %.1f frames a second, %.0f ms from exposure to the last row",
                   status.fps_out, status.latency_ms_median);
-    line += figures;
+    line += stats;
   }
   if (!status.reason.empty()) line += (status.fps_out > 0 ? "; " : ": ") + status.reason;
   return line + ".";

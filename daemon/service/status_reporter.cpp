@@ -6,15 +6,15 @@
 #include <cstdio>
 #include <utility>
 
-#include "daemon/pipeline/clocks.h"
+#include "daemon/base/clocks.h"
 #include "daemon/service/process_usage.h"
 #include "daemon/service/version.h"
 
 namespace stereod {
 namespace {
 
-constexpr std::size_t kLargestStatus = 16'384;
-constexpr std::size_t kLongestText = 500;
+constexpr std::size_t kMaxStatus = 16'384;
+constexpr std::size_t kMaxText = 500;
 
 std::string missing_cameras(const Activity& activity) {
   if (activity.left_frames && activity.right_frames) return {};
@@ -25,7 +25,7 @@ std::string missing_cameras(const Activity& activity) {
 
 // What both cameras say is said once.
 void add_reason(std::string& reason, const SourceReport& camera) {
-  const std::string further = "; " + camera.reason.substr(0, kLongestText);
+  const std::string further = "; " + camera.reason.substr(0, kMaxText);
   if (!camera.reason.empty() && !reason.ends_with(further)) reason += further;
 }
 
@@ -37,24 +37,24 @@ std::int64_t patience_for(double fps) {
 
 }  // namespace
 
-std::string KnockDetector::judge(const AlignmentFigures& figures) {
+std::string CalibrationMonitor::judge(const EpipolarStats& stats) {
   constexpr double kApart_px = 1, kTogether_px = 0.7;
   constexpr std::size_t kEnough = 100;
-  const double hardly_any = std::max(0.01, figures.usual_share / 8),
-               some = std::max(0.05, figures.usual_share / 3);
+  const double hardly_any = std::max(0.01, stats.usual_share / 8),
+               some = std::max(0.05, stats.usual_share / 3);
   constexpr const char* kRemedy =
       "; was a camera knocked? 'stereo-calibrate check' measures it, if so calibrate again";
-  if (figures.misalignment) {
-    apart_ = figures.misalignment->row_error_px > (apart_ ? kTogether_px : kApart_px);
+  if (stats.epipolar_error) {
+    apart_ = stats.epipolar_error->epipolar_error_px > (apart_ ? kTogether_px : kApart_px);
     was_found_ = true;
   }
   // Also while too few points are found to tell: only rows that are seen to lie side by side are a reason to
   // think so.
-  if (apart_) return std::string("rows of the rectified pictures do not lie side by side any more") + kRemedy;
-  if (figures.searched >= kEnough) lost_ = was_found_ && figures.found_share < (lost_ ? some : hardly_any);
+  if (apart_) return std::string("rows of the rectified images do not lie side by side any more") + kRemedy;
+  if (stats.searched >= kEnough) lost_ = was_found_ && stats.found_share < (lost_ ? some : hardly_any);
   if (lost_) {
     return std::string(
-               "hardly anything of the left picture is found in the right one any more; is something before "
+               "hardly anything of the left image is found in the right one any more; is something before "
                "a "
                "lens or very near") +
            kRemedy;
@@ -82,13 +82,17 @@ ServiceState judge_state(const Activity& activity, bool calibrated) {
 }
 
 StatusReporter::StatusReporter(Pipeline& pipeline, MessageBus& bus)
-    : encoder_(kLargestStatus),
+    : encoder_(kMaxStatus),
       started_ns_(monotonic_ns()),
       before_ns_(started_ns_),
       before_cpu_s_(process_cpu_seconds()) {
   status_.version = kVersion;
   status_.left.name = "left";
   status_.right.name = "right";
+  status_.cpu_temperature_c = -273;
+  status_.yaw_error_sigma_px = -1;
+  status_.distance_error_1m_percent = status_.distance_error_3m_percent = -1;
+  for (camera_status_t* camera : {&status_.left, &status_.right}) camera->exposure_ms = camera->gain = -1;
   follow(pipeline, bus);
 }
 
@@ -99,19 +103,20 @@ void StatusReporter::follow(Pipeline& pipeline, MessageBus& bus) {
   status_channel_ = config.lcm.prefix + "_STATUS";
   camera_info_channel_ = config.lcm.prefix + "_CAMERA_INFO";
   patience_ns_ = patience_for(config.cameras.fps);
-  knock_detector_ = {};  // it may be another calibration
+  calibration_monitor_ = {};  // it may be another calibration
   status_.matcher = pipeline.matcher_description();
-  status_.left.device = pipeline.rig().left_name.substr(0, kLongestText);
-  status_.right.device = pipeline.rig().right_name.substr(0, kLongestText);
+  status_.paced = config.lcm.pacing > 0 ? 1 : 0;
+  status_.left.device = pipeline.rig().left_name.substr(0, kMaxText);
+  status_.right.device = pipeline.rig().right_name.substr(0, kMaxText);
 }
 
 const status_t& StatusReporter::report() {
-  const PipelineFigures now = pipeline_->take_figures();
+  const PipelineStats now = pipeline_->take_stats();
   const std::int64_t now_ns = monotonic_ns();
   const double seconds = std::max(1e-3, static_cast<double>(now_ns - before_ns_) * 1e-9);
   const double cpu_s = process_cpu_seconds();
   Activity activity = recent_activity(now, now_ns);
-  activity.knocked = knock_detector_.judge(now.alignment);
+  activity.knocked = calibration_monitor_.judge(now.alignment);
   const bool calibrated = pipeline_->calibration().has_value();
   const ServiceState state = std::exchange(first_, false)
                                  ? ServiceState{"starting", "waiting for the first frames"}
@@ -121,7 +126,7 @@ const status_t& StatusReporter::report() {
     logged_ = state;
   }
 
-  const auto& misalignment = now.alignment.misalignment;
+  const auto& epipolar_error = now.alignment.epipolar_error;
   status_.utime = wall_us();
   status_.state = state.name;
   status_.reason = state.reason;
@@ -130,15 +135,15 @@ const status_t& StatusReporter::report() {
     if (!activity.left_frames) add_reason(status_.reason, now.left.report);
     if (!activity.right_frames) add_reason(status_.reason, now.right.report);
   }
-  if (!activity.knocked.empty() && state.reason == activity.knocked && misalignment) {
+  if (!activity.knocked.empty() && state.reason == activity.knocked && epipolar_error) {
     char figure[64];
-    std::snprintf(figure, sizeof figure, " (now %.1f px apart, by %zu points)", misalignment->row_error_px,
-                  misalignment->points);
+    std::snprintf(figure, sizeof figure, " (now %.1f px apart, by %zu points)",
+                  epipolar_error->epipolar_error_px, epipolar_error->points);
     status_.reason += figure;
   }
   if (!remark_.empty()) {
     if (!status_.reason.empty()) status_.reason += "; ";
-    status_.reason += remark_.substr(0, kLongestText);
+    status_.reason += remark_.substr(0, kMaxText);
   }
   status_.uptime_s = static_cast<double>(now_ns - started_ns_) * 1e-9;
   status_.fps_in = static_cast<double>(now.pairing.pairs - before_.pairing.pairs) / seconds;
@@ -156,17 +161,19 @@ const status_t& StatusReporter::report() {
   status_.latency_ms_p95 = now.published.latency_ms.percentile(0.95);
   status_.latency_ms_max = now.published.latency_ms.percentile(1);
   status_.match_ms_median = now.published.match_ms.percentile(0.5);
-  status_.row_error_px = misalignment ? misalignment->row_error_px : 0;
-  status_.row_error_points = misalignment ? static_cast<std::int32_t>(misalignment->points) : 0;
-  status_.row_check_percent = 100 * now.alignment.cost_share;
-  status_.valid_fraction = now.published.valid_fraction;
+  status_.epipolar_error_px = epipolar_error ? epipolar_error->epipolar_error_px : 0;
+  status_.epipolar_points = epipolar_error ? static_cast<std::int32_t>(epipolar_error->points) : 0;
+  status_.epipolar_probe_percent = 100 * now.alignment.cost_share;
+  status_.measured_fraction = now.published.measured_fraction;
+  status_.filled_fraction = now.published.filled_fraction;
+  status_.no_evidence_fraction = now.published.no_evidence_fraction;
   status_.cpu_percent = 100 * (cpu_s - before_cpu_s_) / seconds;
   status_.rss_mb = process_rss_mb();
   if (const auto& cameras = pipeline_->rig().cameras) {
-    const PhaseReport phase = cameras->phase();
-    status_.phase_alignment = name_of(phase.state);
-    status_.phase_skew_ms = phase.skew_ms;
-    status_.phase_restarts = phase.restarts;
+    const PhaseSyncReport phase = cameras->phase();
+    status_.sync_state = name_of(phase.state);
+    status_.sync_skew_ms = phase.skew_ms;
+    status_.sync_restarts = phase.restarts;
   }
   fill_camera(status_.left, now.left, before_.left, seconds);
   fill_camera(status_.right, now.right, before_.right, seconds);
@@ -179,7 +186,7 @@ const status_t& StatusReporter::report() {
   return status_;
 }
 
-Activity StatusReporter::recent_activity(const PipelineFigures& now, std::int64_t now_ns) {
+Activity StatusReporter::recent_activity(const PipelineStats& now, std::int64_t now_ns) {
   const auto happened_lately = [&](bool happened, std::int64_t& last_ns) {
     if (happened) last_ns = now_ns;
     return last_ns > 0 && now_ns - last_ns < patience_ns_;
@@ -193,20 +200,20 @@ Activity StatusReporter::recent_activity(const PipelineFigures& now, std::int64_
   return activity;
 }
 
-void StatusReporter::fill_camera(camera_status_t& message, const CameraFigures& now,
-                                 const CameraFigures& before, double seconds) {
+void StatusReporter::fill_camera(camera_status_t& message, const CameraStats& now, const CameraStats& before,
+                                 double seconds) {
   const SourceReport& report = now.report;
   message.state = report.state;
-  message.reason = report.reason.substr(0, kLongestText);
-  message.connected = report.device.substr(0, kLongestText);
+  message.reason = report.reason.substr(0, kMaxText);
+  message.connected = report.device.substr(0, kMaxText);
   message.format = report.format;
-  message.note = report.note.substr(0, kLongestText);
-  message.last_fault = report.last_fault.substr(0, kLongestText);
+  message.note = report.note.substr(0, kMaxText);
+  message.last_fault = report.last_fault.substr(0, kMaxText);
   message.last_fault_utime = report.last_fault_ns > 0 ? wall_us_of(report.last_fault_ns) : 0;
   message.mean_brightness = now.mean_brightness;
   message.decode_errors = report.decode_errors;
   message.frames_incomplete = report.incomplete;
-  message.frames_bad_stamp = report.bad_stamps;
+  message.frames_bad_timestamp = report.bad_timestamps;
   message.frames_superseded = report.superseded;
   message.reconnects = report.reconnects;
   message.sequence_gaps = report.sequence_gaps;

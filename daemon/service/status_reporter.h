@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
+#include "daemon/lcm/message_bus.h"
+#include "daemon/lcm/message_encoder.h"
 #include "daemon/pipeline/pipeline.h"
-#include "daemon/publish/message_bus.h"
-#include "daemon/publish/message_encoder.h"
 #include "stereod/camera_info_t.hpp"
 #include "stereod/status_t.hpp"
 
@@ -28,12 +28,12 @@ struct Activity {
 };
 
 /// Says when a calibration no longer fits: rows more than a pixel apart, until they are within 0.7 px again;
-/// or hardly any point of the left picture found in the right one, after it has been otherwise, until some
+/// or hardly any point of the left image found in the right one, after it has been otherwise, until some
 /// are again.
-class KnockDetector {
+class CalibrationMonitor {
  public:
-  /// The figures of one moment; what is wrong, as a sentence without figures, or empty.
-  std::string judge(const AlignmentFigures& figures);
+  /// The stats of one moment; what is wrong, as a sentence without stats, or empty.
+  std::string judge(const EpipolarStats& stats);
 
  private:
   bool apart_ = false;
@@ -59,8 +59,8 @@ class StatusReporter {
 
  private:
   void publish_camera_info();
-  Activity recent_activity(const PipelineFigures& now, std::int64_t now_ns);
-  void fill_camera(camera_status_t& message, const CameraFigures& now, const CameraFigures& before,
+  Activity recent_activity(const PipelineStats& now, std::int64_t now_ns);
+  void fill_camera(camera_status_t& message, const CameraStats& now, const CameraStats& before,
                    double seconds);
 
   Pipeline* pipeline_ = nullptr;  // never null once constructed
@@ -68,13 +68,13 @@ class StatusReporter {
   MessageEncoder encoder_;
   status_t status_{};
   std::string status_channel_, camera_info_channel_;
-  PipelineFigures before_;
+  PipelineStats before_;
   // When each last happened.
   struct {
     std::int64_t left = 0, right = 0, pair = 0, publication = 0;
   } last_ns_;
   std::int64_t patience_ns_ = 0;  // how long nothing may happen before it counts as missing
-  KnockDetector knock_detector_;
+  CalibrationMonitor calibration_monitor_;
   bool first_ = true;
   std::string remark_;
   ServiceState logged_;

@@ -23,8 +23,8 @@ std::filesystem::path datasets() {
 }
 
 std::optional<MatPair> load_tsukuba() {
-  const std::filesystem::path folder = datasets() / "mb2001_tsukuba";
-  return load((folder / "left.png").string(), (folder / "right.png").string(), cv::IMREAD_GRAYSCALE);
+  const std::filesystem::path directory = datasets() / "mb2001_tsukuba";
+  return load((directory / "left.png").string(), (directory / "right.png").string(), cv::IMREAD_GRAYSCALE);
 }
 
 std::optional<MatPair> load_aloe(cv::Size size) {
@@ -41,13 +41,13 @@ std::optional<MatPair> load_aloe(cv::Size size) {
 
 std::optional<MatPair> load_aloe_vga() { return load_aloe({640, 480}); }
 
-cv::Mat grey_of(const cv::Mat& color) {
-  cv::Mat grey;
-  cv::cvtColor(color, grey, cv::COLOR_BGR2GRAY);
-  return grey;
+cv::Mat gray_of(const cv::Mat& color) {
+  cv::Mat gray;
+  cv::cvtColor(color, gray, cv::COLOR_BGR2GRAY);
+  return gray;
 }
 
-GreyView view_of(const cv::Mat& mat) {
+GrayView view_of(const cv::Mat& mat) {
   return {mat.data, mat.cols, mat.rows, static_cast<std::ptrdiff_t>(mat.step)};
 }
 

@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/cpu.h"
 #include "core/match/frame_matcher.h"
-#include "core/match/isa.h"
 #include "tests/bench/interleaved.h"
 #include "tests/bench/matcher_cases.h"
 #include "tests/bench/tables.h"
@@ -207,7 +207,7 @@ int main(int argc, char** argv) {
     std::cerr << "usage: bench_matcher [rounds, at least 1]\n";
     return 2;
   }
-  std::cout << "OpenCV " << CV_VERSION << " StereoBM and ours, same parameters and pictures, " << rounds
+  std::cout << "OpenCV " << CV_VERSION << " StereoBM and ours, same parameters and images, " << rounds
             << " rounds. OpenCV always prefilters and always answers in 1/16 px.\n";
   stereod::bench::measure(rounds);
   return 0;

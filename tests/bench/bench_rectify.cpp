@@ -1,4 +1,4 @@
-// Rectification beside OpenCV's: the table of runs and cv::remap on one picture of 640×480.
+// Rectification beside OpenCV's: the table of runs and cv::remap on one image of 640×480.
 #include <cstdlib>
 #include <iostream>
 #include <opencv2/calib3d.hpp>
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/match/isa.h"
-#include "core/rectify_map.h"
+#include "core/base/cpu.h"
+#include "core/rectify/rectify_map.h"
 #include "tests/bench/bench_images.h"
 #include "tests/bench/interleaved.h"
 #include "tests/bench/tables.h"
@@ -17,7 +17,7 @@
 namespace stereod::bench {
 namespace {
 
-// Pictures in a row, so many that waking the workers, which may take milliseconds on a busy machine, hardly
+// Images in a row, so many that waking the workers, which may take milliseconds on a busy machine, hardly
 // counts.
 constexpr int kBatch = 400;
 
@@ -52,13 +52,13 @@ void rectify(const RectifyMap& map, const cv::Mat& source, cv::Mat& out, RowRang
   const Size size = map.size();
   const auto step = static_cast<std::ptrdiff_t>(out.step);
   if (source.channels() == 1) {
-    map.grey_rows(source.data, rows, {out.data, size.width, size.height, step});
+    map.gray_rows(source.data, rows, {out.data, size.width, size.height, step});
   } else {
     map.color_rows(source.data, rows, {reinterpret_cast<Rgb*>(out.data), size.width, size.height, step});
   }
 }
 
-/// kBatch pictures, each worker the same band of all of them: as in the daemon, whose workers are at work
+/// kBatch images, each worker the same band of all of them: as in the daemon, whose workers are at work
 /// anyway when rows are to be rectified.
 void rectify_batch(const RectifyMap& map, const cv::Mat& source, cv::Mat& out, WorkerPool& pool) {
   pool.run(pool.workers(), [&](int band, int) {
@@ -100,9 +100,9 @@ void measure(const Task& task, int rounds) {
 }
 
 /// What a camera that gives YUYV, two bytes a pixel, costs.
-void measure_packed(const cv::Mat& grey, int rounds) {
-  const Size size{grey.cols, grey.rows};
-  const cv::Mat parts[] = {grey, grey};
+void measure_packed(const cv::Mat& gray, int rounds) {
+  const Size size{gray.cols, gray.rows};
+  const cv::Mat parts[] = {gray, gray};
   cv::Mat packed;
   cv::merge(parts, 2, packed);
   InterleavedRun run;
@@ -113,13 +113,13 @@ void measure_packed(const cv::Mat& grey, int rounds) {
                         interpolation);
     }
   }
-  GreyImage out(size);
+  GrayImage out(size);
   Cells headings, cells;
   for (const RectifyMap& map : maps) {
     const bool plain = map.layout().pixel_stride == 1;
-    headings.push_back(std::string(plain ? "grey " : "YUYV ") + std::string(name_of(map.interpolation())));
-    run.add(headings.back(), [&map, &out, source = plain ? grey.data : packed.data] {
-      map.grey_rows(source, {0, map.size().height}, out.view());
+    headings.push_back(std::string(plain ? "gray " : "YUYV ") + std::string(name_of(map.interpolation())));
+    run.add(headings.back(), [&map, &out, source = plain ? gray.data : packed.data] {
+      map.gray_rows(source, {0, map.size().height}, out.view());
     });
   }
   const InterleavedResults results = run.run(rounds);
@@ -132,16 +132,16 @@ void measure_packed(const cv::Mat& grey, int rounds) {
 void measure_all(int rounds) {
   const std::optional<MatPair> aloe = load_aloe_vga();
   if (!aloe) {
-    std::cout << "No Aloe pictures; install the package opencv-doc.\n";
+    std::cout << "No Aloe images; install the package opencv-doc.\n";
     return;
   }
-  const cv::Mat grey = grey_of(aloe->left);
+  const cv::Mat gray = gray_of(aloe->left);
   print_row(
       "", {"remap floats", "remap 16SC2", "ours", "floats / ours", "16SC2 / ours", "1 / 2 threads", "table"});
-  measure({"grey, nearest", grey, Interpolation::kNearest, 6, 1.8}, rounds);
-  measure({"24-bit colour, nearest", aloe->left, Interpolation::kNearest, 4, 1.8}, rounds);
-  measure({"grey, bilinear", grey, Interpolation::kBilinear, 1.5, 1.8}, rounds);
-  measure_packed(grey, rounds);
+  measure({"gray, nearest", gray, Interpolation::kNearest, 6, 1.8}, rounds);
+  measure({"24-bit color, nearest", aloe->left, Interpolation::kNearest, 4, 1.8}, rounds);
+  measure({"gray, bilinear", gray, Interpolation::kBilinear, 1.5, 1.8}, rounds);
+  measure_packed(gray, rounds);
 }
 
 }  // namespace
@@ -154,7 +154,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   cv::setNumThreads(1);
-  std::cout << "OpenCV " << CV_VERSION << " remap on one thread and ours, one picture of 640x480, " << rounds
+  std::cout << "OpenCV " << CV_VERSION << " remap on one thread and ours, one image of 640x480, " << rounds
             << " rounds; bilinear with " << stereod::name_of(stereod::resolve_isa(stereod::Isa::kAuto))
             << ".\n";
   stereod::bench::measure_all(rounds);

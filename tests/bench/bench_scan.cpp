@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "core/ground_fit.h"
+#include "core/perception/ground_plane.h"
 #include "tests/support/floor_world.h"
 #include "tests/support/scene_matcher.h"
 

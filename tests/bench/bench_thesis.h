@@ -4,7 +4,7 @@
 namespace stereod::bench {
 
 /// Tables 3.1, 3.2, 3.4, 3.5 and figure 3.13, with `rounds` turns for each contestant. Says so and returns if
-/// the pictures are not there. Throws std::runtime_error if the implementations disagree.
+/// the images are not there. Throws std::runtime_error if the implementations disagree.
 void measure_matching(int rounds);
 
 /// Tables 4.2 and 4.3, likewise.

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/cpu.h"
 #include "core/match/frame_matcher.h"
-#include "core/match/isa.h"
 #include "tests/bench/bench_images.h"
 #include "tests/bench/bench_thesis.h"
 #include "tests/bench/interleaved.h"
@@ -20,7 +20,7 @@ namespace {
 constexpr int kNaiveTurns = 4;
 constexpr const char* kOpenCv = "OpenCV BM";
 constexpr const char* kConditions =
-    R"(Own: raw grey values, whole pixels, no test, no filter, as in the thesis. OpenCV's StereoBM: texture,
+    R"(Own: raw gray values, whole pixels, no test, no filter, as in the thesis. OpenCV's StereoBM: texture,
 uniqueness, left-right and speckle tests off. The thesis switched its prefilter off too; there is no such
 setting, so OpenCV works on (and takes the time for) its XSobel picture here. It also leaves the left 64
 columns empty and always answers in 1/16 px. Like for like with it are the xsobel columns of the last table.
@@ -123,7 +123,7 @@ void print_matching_tables(const InterleavedResults& results, const Cells& by_wo
 void measure_matching(int rounds) {
   const std::optional<MatPair> tsukuba = load_tsukuba();
   if (!tsukuba) {
-    std::cout << "Tables 3.1 to 3.5 skipped: no Tsukuba pictures in " << datasets()
+    std::cout << "Tables 3.1 to 3.5 skipped: no Tsukuba images in " << datasets()
               << "; set STEREO_DATASETS to where they are.\n";
     return;
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rectify_map.h"
+#include "core/rectify/rectify_map.h"
 #include "tests/bench/bench_images.h"
 #include "tests/bench/bench_thesis.h"
 #include "tests/bench/interleaved.h"
@@ -48,7 +48,7 @@ void remap_table(const std::string& title, const cv::Mat& source, int rounds,
   const auto step = static_cast<std::ptrdiff_t>(by_us.step);
   const auto remap_own = [&](WorkerPool& pool) {
     if (channels == 1) {
-      rectify_grey(map, source.data, {by_us.data, size.width, size.height, step}, pool);
+      rectify_gray(map, source.data, {by_us.data, size.width, size.height, step}, pool);
     } else {
       rectify_color(map, source.data, {reinterpret_cast<Rgb*>(by_us.data), size.width, size.height, step},
                     pool);
@@ -89,13 +89,13 @@ void remap_table(const std::string& title, const cv::Mat& source, int rounds,
 void measure_remapping(int rounds) {
   const std::optional<MatPair> aloe = load_aloe_vga();
   if (!aloe) {
-    std::cout << "\nTables 4.2 and 4.3 skipped: no Aloe pictures; install the package opencv-doc.\n";
+    std::cout << "\nTables 4.2 and 4.3 skipped: no Aloe images; install the package opencv-doc.\n";
     return;
   }
-  std::cout << "\nNearest-neighbour remapping of one 640x480 image. OpenCV on one thread.\n";
+  std::cout << "\nNearest-neighbor remapping of one 640x480 image. OpenCV on one thread.\n";
   remap_table("Table 4.2: 24-bit Color Remapping", aloe->left, rounds,
               {{2.29, 0.95, 0.42, 0.44, 0.48, 0.43, 0.41}, {4.81, 1.55, 0.79, 0.75, 0.41, 0.64, 0.66}});
-  remap_table("Table 4.3: 8-bit Grey Remapping", grey_of(aloe->left), rounds,
+  remap_table("Table 4.3: 8-bit Gray Remapping", gray_of(aloe->left), rounds,
               {{1.93, 0.43, 0.23, 0.13, 0.15, 0.14, 0.14}, {3.97, 1.08, 0.55, 0.28, 0.31, 0.62, 0.32}});
 }
 

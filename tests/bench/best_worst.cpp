@@ -1,5 +1,5 @@
 // Draws the sets on which the presets do best, middling and worst, by bad-1 over all known pixels: ground
-// truth, OpenCV's BM and SGBM 3WAY, fast, dense and robust, each with its figures. For the documentation.
+// truth, OpenCV's BM and SGBM 3WAY, fast, dense and robust, each with its stats. For the documentation.
 //   best_worst PICTURE.png
 // Or scenes of a rig, FOLDER/left_SCENE.png and right_SCENE.png, by its calibration (rig_scenes.h):
 //   best_worst PICTURE.png CALIBRATION.yaml FOLDER SCENE...
@@ -11,8 +11,8 @@
 #include <exception>
 #include <stdexcept>
 
-#include "daemon/imagefile/disparity_picture.h"
-#include "daemon/tools/evaluation.h"
+#include "daemon/tools/match/evaluation.h"
+#include "daemon/visual/disparity_rendering.h"
 #include "tests/bench/bench_images.h"
 #include "tests/bench/panels.h"
 #include "tests/bench/quality_matchers.h"
@@ -68,12 +68,12 @@ cv::Mat row_of(const StereoSet& set) {
   std::vector<cv::Mat> panels{panel(truth, kSubpixelUnits, range, {set.name, "ground truth"})};
   for (const QualityMatcher& matcher : contestants()) {
     const DisparityImage found = matcher.match(set, set.disparities);
-    const Evaluation figures = judge(matcher, set, found);
+    const Evaluation stats = judge(matcher, set, found);
     std::array<char, 80> bad{};
     std::array<char, 80> rest{};
-    std::snprintf(bad.data(), bad.size(), "%s: bad %.1f%%", matcher.name.c_str(), figures.bad1_known);
-    std::snprintf(rest.data(), rest.size(), "of matched %.1f%%, matched %.1f%%", figures.bad1_matched,
-                  figures.density);
+    std::snprintf(bad.data(), bad.size(), "%s: bad %.1f%%", matcher.name.c_str(), stats.bad1_known);
+    std::snprintf(rest.data(), rest.size(), "of matched %.1f%%, matched %.1f%%", stats.bad1_matched,
+                  stats.density);
     panels.push_back(panel(found, matcher.units_per_pixel, range, {bad.data(), rest.data()}));
     std::printf("%-14s %s, %s\n", set.name.c_str(), bad.data(), rest.data());
   }

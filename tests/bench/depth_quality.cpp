@@ -1,7 +1,7 @@
-// How good the depth is: our presets and OpenCV's matchers on pictures with ground truth.
+// How good the depth is: our presets and OpenCV's matchers on images with ground truth.
 //
 // bad-1 is the share of pixels that are off by more than 1 px, over all whose truth is known (an unmatched
-// one counts as bad) and over the matched ones; all shares are in percent. Where the pictures come from:
+// one counts as bad) and over the matched ones; all shares are in percent. Where the images come from:
 // stereo_sets.h. To tune a preset: depth_quality --matchers robust,custom --base robust --set window=9.
 #include <algorithm>
 #include <exception>
@@ -20,13 +20,13 @@
 namespace stereod::bench {
 namespace {
 
-/// Grey levels a pixel of disparity in the pictures whose squared difference is taken.
-double grey_per_px(int disparities) { return 255.0 / disparities; }
+/// Gray levels a pixel of disparity in the images whose squared difference is taken.
+double gray_per_px(int disparities) { return 255.0 / disparities; }
 
 SetResult judge(const QualityMatcher& matcher, const StereoSet& set, int disparities) {
   const DisparityImage found = matcher.match(set, disparities);
   return {set.name,
-          evaluate(found.view(), matcher.units_per_pixel, set.truth.view(), grey_per_px(disparities))};
+          evaluate(found.view(), matcher.units_per_pixel, set.truth.view(), gray_per_px(disparities))};
 }
 
 MatcherResult judge(const QualityMatcher& matcher, const std::vector<StereoSet>& sets) {
@@ -81,9 +81,9 @@ void print_thesis_comparison(const std::vector<StereoSet>& sets) {
   if (tsukuba == sets.end()) return;
   constexpr int kDisparities = 64;
   std::cout << "\nAs in the thesis, section 3.6: Tsukuba, 64 disparities, 11x11. Mean squared difference of "
-               "8-bit pictures (here "
-            << grey_per_px(kDisparities)
-            << " grey levels a px,\nover the known pixels; the thesis does not say its own scale): thesis "
+               "8-bit images (here "
+            << gray_per_px(kDisparities)
+            << " gray levels a px,\nover the known pixels; the thesis does not say its own scale): thesis "
                "OpenCV 6457, its naive matcher 4746.\n";
   std::vector<MatcherResult> results;
   for (const QualityMatcher& matcher :
@@ -93,20 +93,20 @@ void print_thesis_comparison(const std::vector<StereoSet>& sets) {
   print_squared_differences(results);
 }
 
-/// Left picture, ground truth, BM and, where they take part, robust and custom.
-void write_pictures(const std::filesystem::path& folder, const std::vector<QualityMatcher>& matchers,
+/// Left image, ground truth, BM and, where they take part, robust and custom.
+void write_pictures(const std::filesystem::path& directory, const std::vector<QualityMatcher>& matchers,
                     const std::vector<StereoSet>& sets) {
-  std::filesystem::create_directories(folder);
+  std::filesystem::create_directories(directory);
   for (const StereoSet& set : sets) {
     std::vector<FoundDisparity> found;
     for (const QualityMatcher& matcher : matchers) {
       if (matcher.name != "BM" && matcher.name != "robust" && matcher.name != "custom") continue;
       found.push_back({matcher.match(set, set.disparities), matcher.units_per_pixel});
     }
-    write_comparison(folder / (set.name + ".png"), set, found);
+    write_comparison(directory / (set.name + ".png"), set, found);
   }
-  std::cout << "\nPictures are in " << folder.string()
-            << ": left picture, ground truth, BM, robust (then custom).\n";
+  std::cout << "\nPictures are in " << directory.string()
+            << ": left image, ground truth, BM, robust (then custom).\n";
 }
 
 int run(const QualityArguments& arguments) {

@@ -37,7 +37,7 @@ std::int64_t now_us() {
 std::vector<Life> listen(const std::string& prefix, std::size_t count) {
   StereoClient::Options options;
   options.prefix = prefix;
-  options.newest_frame_only = false;
+  options.latest_only = false;
   StereoClient client(options);
   std::map<std::int64_t, Life> open;
   std::vector<Life> lives;
@@ -76,10 +76,10 @@ class Drawing {
  public:
   explicit Drawing(double most_ms) : ms_px_(540 / most_ms) {}
 
-  void bar(const std::string& label, const char* colour, double from_ms, double to_ms) {
+  void bar(const std::string& label, const char* color, double from_ms, double to_ms) {
     text(10, y_ + 14, label);
     add("<rect x='%.1f' y='%d' width='%.1f' height='18' fill='%s'/>", x(from_ms), y_,
-        std::max((to_ms - from_ms) * ms_px_, 0.5), colour);
+        std::max((to_ms - from_ms) * ms_px_, 0.5), color);
     char span[64];
     std::snprintf(span, sizeof span, "%.2f ms", to_ms - from_ms);
     text(x(to_ms) + 5, y_ + 14, span);

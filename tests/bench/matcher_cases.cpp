@@ -49,10 +49,10 @@ class CaseList {
 std::optional<MatPair> aloe(cv::Size size) {
   std::optional<MatPair> pair = load_aloe(size);
   if (!pair) {
-    std::cerr << "skipped: no Aloe pictures; install the package opencv-doc\n";
+    std::cerr << "skipped: no Aloe images; install the package opencv-doc\n";
     return std::nullopt;
   }
-  return MatPair{grey_of(pair->left), grey_of(pair->right)};
+  return MatPair{gray_of(pair->left), gray_of(pair->right)};
 }
 
 }  // namespace
@@ -61,12 +61,12 @@ std::vector<MatcherCase> speed_cases() {
   const std::optional<MatPair> vga = aloe({640, 480});
   const std::optional<MatPair> tsukuba = load_tsukuba();
   if (!tsukuba) {
-    std::cerr << "skipped: no Tsukuba pictures in " << datasets()
+    std::cerr << "skipped: no Tsukuba images in " << datasets()
               << "; set STEREO_DATASETS to where they are\n";
   }
   CaseList list;
   list.add("640x480 d64 w11", vga, plain(64, 11));
-  list.add("same, raw grey values", vga, without_prefilter(plain(64, 11)));
+  list.add("same, raw gray values", vga, without_prefilter(plain(64, 11)));
   list.add("same as first, 1/16 px", vga, with_subpixel(plain(64, 11)));
   list.add("same, all filters", vga, with_filters(plain(64, 11)));
   list.add("640x480 d128 w15", vga, plain(128, 15));

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/match/matcher_options.h"
+#include "core/match/options.h"
 #include "tests/bench/bench_images.h"
 
 namespace stereod::bench {
@@ -16,7 +16,7 @@ struct MatcherCase {
   MatcherOptions options;
 };
 
-/// Those of which the pictures are here; says on standard error which are not.
+/// Those of which the images are here; says on standard error which are not.
 std::vector<MatcherCase> speed_cases();
 
 /// Sizes and disparities for the semi-global matcher; OpenCV's StereoBM is to take them with a window of 11.

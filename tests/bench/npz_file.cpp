@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "daemon/config/file_error.h"
-#include "daemon/imagefile/file_bytes.h"
+#include "daemon/base/file.h"
+#include "daemon/base/file_error.h"
 
 namespace stereod::bench {
 namespace {
@@ -45,9 +45,9 @@ Bytes inflate_first(Bytes zip, std::size_t most) {
 }  // namespace
 
 Image<float> read_npz_floats(const std::filesystem::path& path) {
-  constexpr std::size_t kLargest = 64'000'000;
+  constexpr std::size_t kMax = 64'000'000;
   constexpr std::size_t kPreamble = 10;  // magic, version 1.0, length of the header
-  const Bytes npy = inflate_first(read_file_bytes(path), kLargest);
+  const Bytes npy = inflate_first(read_file_bytes(path), kMax);
   const std::size_t data = kPreamble + number_at(npy, 8);
   if (data > npy.size()) throw FileError(path.string() + ": holds no deflated array");
 
@@ -56,7 +56,7 @@ Image<float> read_npz_floats(const std::filesystem::path& path) {
       "'descr': '<f4', 'fortran_order': False, 'shape': \\(([0-9]{1,4}), ([0-9]{1,4})\\)");
   std::smatch shape;
   if (!std::regex_search(header, shape, wanted)) {
-    throw FileError(path.string() + ": its first array is not a picture of 32-bit floats");
+    throw FileError(path.string() + ": its first array is not a image of 32-bit floats");
   }
   Image<float> picture(std::stoi(shape[2]), std::stoi(shape[1]));
   const std::size_t row_bytes = static_cast<std::size_t>(picture.width()) * sizeof(float);

@@ -1,9 +1,9 @@
-// NumPy's file of arrays, as far as one picture of floats in it goes.
+// NumPy's file of arrays, as far as one image of floats in it goes.
 #pragma once
 
 #include <filesystem>
 
-#include "core/image.h"
+#include "core/base/image.h"
 
 namespace stereod::bench {
 

@@ -1,4 +1,4 @@
-// How many pictures a second stereo-view's page shows in a headless Chromium, whole and at half resolution.
+// How many images a second stereo-view's page shows in a headless Chromium, whole and at half resolution.
 //
 //   page_rate URL SECONDS
 #include <chrono>
@@ -20,7 +20,7 @@ double shown_per_second(Chromium& browser, double seconds) {
   const std::string state = "[view.shown, performance.now()].join(' ')";
   const auto read = [&](long& shown, double& ms) {
     if (std::sscanf(browser.evaluate(state).c_str(), "%ld %lf", &shown, &ms) != 2) {
-      throw std::runtime_error("the page does not say how many pictures it has shown.");
+      throw std::runtime_error("the page does not say how many images it has shown.");
     }
   };
   long before = 0, after = 0;
@@ -52,7 +52,7 @@ int run(int argc, char** argv) {
   browser.evaluate("cloud.show = () => {}");
   browser.evaluate("cloud.draw = () => {}");
   const double no_cloud = shown_per_second(browser, seconds);
-  std::printf("whole: %.1f, half resolution: %.1f, half and no point cloud: %.1f pictures a second\n", whole,
+  std::printf("whole: %.1f, half resolution: %.1f, half and no point cloud: %.1f images a second\n", whole,
               half, no_cloud);
   return 0;
 }

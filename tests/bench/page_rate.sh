@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# How many pictures a second stereo-view's page shows over a slow link: stereod, stereo-view and a headless Chromium in a
+# How many images a second stereo-view's page shows over a slow link: stereod, stereo-view and a headless Chromium in a
 # network namespace whose loopback, which carries nothing but the page, is limited to so many Mbit/s (0: not limited).
 #
 #   page_rate.sh FOLDER-OF-PROGRAMS MBIT...

@@ -12,7 +12,7 @@ constexpr int kPanelWidth = 240;
 constexpr int kGap = 6;
 constexpr int kCaption = 34;  // two lines
 
-// `picture` is of any size, blue, green and red.
+// `image` is of any size, blue, green and red.
 cv::Mat captioned(const cv::Mat& picture, const Caption& caption) {
   const int height = static_cast<int>(std::lround(1.0 * kPanelWidth * picture.rows / picture.cols));
   cv::Mat result(height + kCaption, kPanelWidth, CV_8UC3, cv::Scalar::all(255));
@@ -29,7 +29,7 @@ cv::Mat captioned(const cv::Mat& picture, const Caption& caption) {
 
 cv::Mat panel(const DisparityImage& disparity, int units_per_pixel, DisparityRange range,
               const Caption& caption) {
-  DisparityPictureOptions options;
+  DisparityRenderingOptions options;
   options.range = range;
   options.scale_bar = false;
   ColorImage colors = draw_disparity(disparity.view(), units_per_pixel, options);

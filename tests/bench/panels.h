@@ -1,12 +1,12 @@
-// Pictures of disparities side by side, each with two lines of words above it.
+// Images of disparities side by side, each with two lines of words above it.
 #pragma once
 
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
-#include "core/disparity.h"
-#include "daemon/imagefile/disparity_picture.h"
+#include "core/match/disparity.h"
+#include "daemon/visual/disparity_rendering.h"
 
 namespace stereod::bench {
 
@@ -14,7 +14,7 @@ struct Caption {
   std::string first_line, second_line;
 };
 
-/// Disparities in the colours of `range`.
+/// Disparities in the colors of `range`.
 cv::Mat panel(const DisparityImage& disparity, int units_per_pixel, DisparityRange range,
               const Caption& caption);
 

@@ -10,7 +10,7 @@ namespace stereod::bench {
 /// A pole is 40 px of disparity near, the wall 10.
 struct Poles {
   StereoSet set;
-  cv::Mat1b on_pole;  ///< 1 where the left picture shows a pole
+  cv::Mat1b on_pole;  ///< 1 where the left image shows a pole
 };
 
 /// Poles of so many px.

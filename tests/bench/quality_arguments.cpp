@@ -73,15 +73,14 @@ QualityArguments parse_quality_arguments(int argc, const char* const* argv) {
   QualityArguments arguments;
   std::string base = "robust";
   std::vector<std::string> settings;
-  CLI::App app("depth_quality: judges the matcher and OpenCV's on pictures with ground truth",
-               "depth_quality");
+  CLI::App app("depth_quality: judges the matcher and OpenCV's on images with ground truth", "depth_quality");
   app.add_option("--sets", arguments.sets, "only these sets: NAME,...")->delimiter(',');
   app.add_option("--matchers", arguments.matchers, "only these: BM (always there), SGBM, presets, custom")
       ->delimiter(',');
   app.add_option("--base", base, "the preset that --set changes: " + std::string(kMatcherPresets));
   app.add_option("--set", settings, "one more preset, called custom: KEY=VALUE; may be given again")
       ->allow_extra_args(false);
-  app.add_option("--pictures", arguments.pictures, "write a PNG for each set into this folder");
+  app.add_option("--images", arguments.pictures, "write a PNG for each set into this directory");
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/match/matcher_options.h"
+#include "core/match/options.h"
 
 namespace stereod::bench {
 
@@ -14,7 +14,7 @@ struct QualityArguments {
   std::vector<std::string> sets;                  ///< empty: all
   std::vector<std::string> matchers;              ///< empty: all
   std::optional<MatcherOptions> custom;           ///< the preset made of --base and --set
-  std::optional<std::filesystem::path> pictures;  ///< the folder to write pictures into
+  std::optional<std::filesystem::path> pictures;  ///< the directory to write images into
 };
 
 /// Takes the command line apart. Prints its own help and ends the program if that is asked for. Throws

@@ -35,7 +35,7 @@ std::string in_words(const MatcherOptions& o) {
            number("census_weight", o.census_weight) + number("gradient_limit", o.gradient_limit) +
            number("prefilter_cap", o.prefilter_cap) + number("uniqueness_ratio", o.uniqueness_ratio) +
            number("left_right_max_diff", o.left_right_max_diff) + number("median", o.median) +
-           number("speckle_size", o.speckle_size) + (o.fill ? ", filled" : "");
+           number("speckle_size", o.speckle_size) + (o.hole_filling ? ", filled" : "");
   }
   return "window " + std::to_string(o.window) + ", prefilter " + std::string(name_of(o.prefilter)) +
          (o.prefilter == Prefilter::kNone ? "" : number("prefilter_cap", o.prefilter_cap)) +

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "core/match/matcher_options.h"
+#include "core/match/options.h"
 #include "tests/bench/stereo_sets.h"
 
 namespace stereod::bench {
@@ -28,7 +28,7 @@ QualityMatcher opencv_sgbm_3way();
 /// StereoSGBM 3WAY, 5×5, with a prefilter cap of 31.
 QualityMatcher opencv_sgbm_3way(int uniqueness_ratio);
 
-/// The same matcher given pictures that are wider at the left by the disparities searched, so that OpenCV can
+/// The same matcher given images that are wider at the left by the disparities searched, so that OpenCV can
 /// answer in every column.
 QualityMatcher padded(QualityMatcher matcher);
 

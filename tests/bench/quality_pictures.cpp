@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "daemon/imagefile/disparity_picture.h"
 #include "daemon/imagefile/write_image.h"
+#include "daemon/visual/disparity_rendering.h"
 #include "tests/bench/bench_images.h"
 
 namespace stereod::bench {
@@ -11,11 +11,11 @@ namespace {
 
 constexpr int kGap = 4;
 
-ColorImage color_of(GreyView grey) {
-  ColorImage color(grey.size());
-  for (int y = 0; y < grey.height(); ++y) {
-    for (int x = 0; x < grey.width(); ++x) {
-      color.at(x, y) = {grey.at(x, y), grey.at(x, y), grey.at(x, y)};
+ColorImage color_of(GrayView gray) {
+  ColorImage color(gray.size());
+  for (int y = 0; y < gray.height(); ++y) {
+    for (int x = 0; x < gray.width(); ++x) {
+      color.at(x, y) = {gray.at(x, y), gray.at(x, y), gray.at(x, y)};
     }
   }
   return color;
@@ -52,7 +52,7 @@ ColorImage side_by_side(const std::vector<ColorImage>& pictures) {
 void write_comparison(const std::filesystem::path& path, const StereoSet& set,
                       const std::vector<FoundDisparity>& found) {
   const DisparityImage truth = disparity_of(set.truth);
-  DisparityPictureOptions options;
+  DisparityRenderingOptions options;
   options.range = typical_range(truth.view(), kSubpixelUnits);
   options.scale_bar = false;
   std::vector<ColorImage> pictures;

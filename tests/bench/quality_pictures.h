@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/disparity.h"
+#include "core/match/disparity.h"
 #include "tests/bench/stereo_sets.h"
 
 namespace stereod::bench {
@@ -14,7 +14,7 @@ struct FoundDisparity {
   int units_per_pixel = kSubpixelUnits;
 };
 
-/// Writes a PNG: the left picture, the ground truth and each of `found`, side by side, all in the colours of
+/// Writes a PNG: the left image, the ground truth and each of `found`, side by side, all in the colors of
 /// the ground truth's range. Throws FileError.
 void write_comparison(const std::filesystem::path& path, const StereoSet& set,
                       const std::vector<FoundDisparity>& found);

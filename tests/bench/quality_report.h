@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/tools/evaluation.h"
+#include "daemon/tools/match/evaluation.h"
 
 namespace stereod::bench {
 

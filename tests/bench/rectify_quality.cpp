@@ -1,7 +1,7 @@
 // What the interpolation of rectification costs in depth: pairs with ground truth are given two lenses and
 // two crooked cameras, rectified again either way, and matched.
 //
-// Both ways see the same distorted pictures, made by Lanczos interpolation, which the untouched pictures in
+// Both ways see the same distorted images, made by Lanczos interpolation, which the untouched images in
 // the last column have not been through.
 #include <cstdlib>
 #include <iostream>
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/match/frame_matcher.h"
-#include "core/rectify_map.h"
-#include "daemon/tools/evaluation.h"
+#include "core/rectify/rectify_map.h"
+#include "daemon/tools/match/evaluation.h"
 #include "tests/bench/bench_images.h"
 #include "tests/bench/stereo_sets.h"
 #include "tests/bench/tables.h"
@@ -19,7 +19,7 @@
 namespace stereod::bench {
 namespace {
 
-/// A webcam whose rectified picture is the given one, but for a margin that the lens does not reach.
+/// A webcam whose rectified image is the given one, but for a margin that the lens does not reach.
 CameraCalibration webcam(Size size, bool left) {
   CameraCalibration calibration;
   CameraModel& camera = calibration.camera;
@@ -54,15 +54,15 @@ cv::Mat seen_by(const CameraCalibration& camera, const cv::Mat& rectified) {
 }
 
 struct Rectified {
-  GreyImage picture;
+  GrayImage picture;
   ValidityMask mask;
 };
 
 Rectified rectified(const CameraCalibration& camera, const cv::Mat& seen, Interpolation interpolation) {
   const Size size{seen.cols, seen.rows};
   const RectifyMap map(camera, {size, static_cast<std::ptrdiff_t>(seen.step), 1}, interpolation);
-  Rectified result{GreyImage(size), map.mask()};
-  map.grey_rows(seen.data, {0, size.height}, result.picture.view());
+  Rectified result{GrayImage(size), map.mask()};
+  map.gray_rows(seen.data, {0, size.height}, result.picture.view());
   return result;
 }
 

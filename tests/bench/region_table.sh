@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What a part of the picture saves: the table of docs/consumers.md. stereod renders its scene at 640×480, 30 pictures a
+# What a part of the image saves: the table of docs/consumers.md. stereod renders its scene at 640×480, 30 images a
 # second, with one worker; stereo-tap listens. Wants an idle machine.
 #
 #   region_table.sh FOLDER-OF-PROGRAMS [SECONDS-FOR-EACH]
@@ -52,4 +52,4 @@ row 'the lower half' 'region: {top: 240}'
 row 'the middle third of the rows' 'region: {top: 160, height: 160}'
 row 'the middle third of the columns' 'region: {left: 213, width: 214}'
 row 'the middle third of both' 'region: {left: 213, top: 160, width: 214, height: 160}'
-row 'every second column and row' 'column_step: 2, row_step: 2'
+row 'every second column and row' 'decimation_x: 2, decimation_y: 2'

@@ -4,9 +4,9 @@
 #include <cstdio>
 
 #include "core/match/frame_matcher.h"
-#include "core/rectify_map.h"
+#include "core/rectify/rectify_map.h"
+#include "daemon/base/file_error.h"
 #include "daemon/config/calibration_file.h"
-#include "daemon/config/file_error.h"
 #include "daemon/imagefile/read_image.h"
 #include "tests/bench/bench_images.h"
 #include "tests/bench/panels.h"
@@ -23,7 +23,7 @@ struct View {
 };
 
 View rectified(const CameraCalibration& camera, const std::filesystem::path& file) {
-  const GreyImage seen = read_grey(file);
+  const GrayImage seen = read_gray(file);
   if (seen.size() != camera.camera.image) {
     throw FileError(file.string() + ": is " + std::to_string(seen.width()) + "x" +
                     std::to_string(seen.height()) + " px, but the calibration is for " +
@@ -32,7 +32,7 @@ View rectified(const CameraCalibration& camera, const std::filesystem::path& fil
   }
   const RectifyMap map(camera, {seen.size(), seen.view().stride(), 1}, Interpolation::kBilinear);
   View view{cv::Mat(seen.height(), seen.width(), CV_8UC1), map.mask()};
-  map.grey_rows(
+  map.gray_rows(
       seen.row(0), {0, seen.height()},
       {view.picture.data, seen.width(), seen.height(), static_cast<std::ptrdiff_t>(view.picture.step)});
   return view;
@@ -48,7 +48,7 @@ DisparityImage matched(const MatcherOptions& options, const View& left, const Vi
   return found;
 }
 
-/// For the picture: filled disparities as if they were measured, all in whole pixels, which makes the file
+/// For the image: filled disparities as if they were measured, all in whole pixels, which makes the file
 /// little more than half as large. What the camera does not see is taken out of everyone's answer; of the
 /// rest, the share that is answered.
 double shown(DisparityImage& found, const ValidityMask& mask) {
@@ -70,10 +70,10 @@ double shown(DisparityImage& found, const ValidityMask& mask) {
   return 100.0 * answered / seen;
 }
 
-cv::Mat row_of(const Calibration& calibration, const std::filesystem::path& folder,
+cv::Mat row_of(const Calibration& calibration, const std::filesystem::path& directory,
                const std::string& scene) {
-  const View left = rectified(calibration.left, folder / ("left_" + scene + ".png"));
-  const View right = rectified(calibration.right, folder / ("right_" + scene + ".png"));
+  const View left = rectified(calibration.left, directory / ("left_" + scene + ".png"));
+  const View right = rectified(calibration.right, directory / ("right_" + scene + ".png"));
   const StereoSet set{scene, left.picture, right.picture, {}, kDisparities};
   std::vector<std::pair<std::string, DisparityImage>> answers;
   for (const QualityMatcher& matcher : {opencv_bm(), padded(opencv_sgbm_3way(10))}) {
@@ -98,11 +98,11 @@ cv::Mat row_of(const Calibration& calibration, const std::filesystem::path& fold
 }  // namespace
 
 std::vector<cv::Mat> rig_scene_rows(const std::filesystem::path& calibration,
-                                    const std::filesystem::path& folder,
+                                    const std::filesystem::path& directory,
                                     const std::vector<std::string>& scenes) {
   const Calibration rig = read_calibration(calibration);
   std::vector<cv::Mat> rows;
-  for (const std::string& scene : scenes) rows.push_back(row_of(rig, folder, scene));
+  for (const std::string& scene : scenes) rows.push_back(row_of(rig, directory, scene));
   return rows;
 }
 

@@ -1,8 +1,8 @@
-// The semi-global matcher beside OpenCV's SGBM in its 3WAY mode: on pictures with ground truth, on the same
-// pictures disturbed, where something nearer hides what is there, on thin poles and in a street.
+// The semi-global matcher beside OpenCV's SGBM in its 3WAY mode: on images with ground truth, on the same
+// images disturbed, where something nearer hides what is there, on thin poles and in a street.
 //
 // bad-1 is the share, in percent, of pixels off by more than 1 px. OpenCV leaves as many columns empty at the
-// left border as it searches disparities; here it gets pictures that are wider by so much, so that it can
+// left border as it searches disparities; here it gets images that are wider by so much, so that it can
 // answer there too.
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/tools/evaluation.h"
+#include "daemon/tools/match/evaluation.h"
 #include "tests/bench/pole_scene.h"
 #include "tests/bench/quality_matchers.h"
 #include "tests/bench/stereo_sets.h"
@@ -34,7 +34,7 @@ QualityMatcher preset(const std::string& name, int p2) {
 
 QualityMatcher filled_fine() {
   MatcherOptions options = matcher_preset("fine").value();
-  options.fill = true;
+  options.hole_filling = true;
   return own_matcher("fine filled", options);
 }
 
@@ -97,12 +97,12 @@ Pictures with_jpeg(const Pictures& pair) { return {compressed(pair.left), compre
 
 constexpr std::array<Disturbance, 6> kDisturbances{{{"none", as_they_are},
                                                     {"noise of sigma 3", with_noise},
-                                                    {"right picture x 0.8 + 10", with_gain},
-                                                    {"right picture 1/2 px lower", with_half_a_row},
-                                                    {"right picture 1 px lower", with_a_row},
+                                                    {"right image x 0.8 + 10", with_gain},
+                                                    {"right image 1/2 px lower", with_half_a_row},
+                                                    {"right image 1 px lower", with_a_row},
                                                     {"JPEG of quality 70", with_jpeg}}};
 
-// --- parts of pictures
+// --- parts of images
 
 /// Where something nearer hides from the right camera what the left one sees: another pixel of the row is the
 /// right pixel's that this one would have.
@@ -129,14 +129,14 @@ cv::Mat1b hidden(const StereoSet& set) {
 }
 
 /// Of the pixels where `part` is `wanted`, in percent.
-struct PartFigures {
+struct PartStats {
   double bad = 0;       ///< off by more than 1 px, or unmatched
   double too_near = 0;  ///< nearer by more than 1 px
   double matched = 0;
 };
 
-PartFigures judge_part(const DisparityImage& found, int units_per_pixel, const StereoSet& set,
-                       const cv::Mat1b& part, int wanted) {
+PartStats judge_part(const DisparityImage& found, int units_per_pixel, const StereoSet& set,
+                     const cv::Mat1b& part, int wanted) {
   int all = 0, right = 0, near = 0, matched = 0;
   for (int y = 0; y < found.height(); ++y) {
     for (int x = 0; x < found.width(); ++x) {
@@ -218,9 +218,9 @@ void print_hidden(const std::vector<QualityMatcher>& all, const std::vector<Ster
   print_headings("hidden: bad, too near; dens.", all);
   std::printf("%-28s", "mean");
   for (const QualityMatcher& matcher : all) {
-    PartFigures mean;
+    PartStats mean;
     for (const StereoSet& set : sets) {
-      const PartFigures of_set =
+      const PartStats of_set =
           judge_part(matcher.match(set, set.disparities), matcher.units_per_pixel, set, hidden(set), 1);
       const double share = 1.0 / static_cast<double>(sets.size());
       mean.bad += share * of_set.bad, mean.too_near += share * of_set.too_near,
@@ -253,7 +253,7 @@ void print_street(const std::vector<QualityMatcher>& all) {
   for (std::size_t part = 0; part < kStreetParts.size(); ++part) {
     std::printf("%-28s", kStreetParts[part]);
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const PartFigures f =
+      const PartStats f =
           judge_part(found[i], all[i].units_per_pixel, scene.set, scene.part, static_cast<int>(part));
       std::printf("%8.2f%7.2f%7.1f", f.bad, f.too_near, f.matched);
     }

@@ -9,9 +9,9 @@
 #include <regex>
 #include <stdexcept>
 
-#include "daemon/config/file_error.h"
+#include "daemon/base/file_error.h"
 #include "daemon/imagefile/read_image.h"
-#include "daemon/tools/evaluation.h"
+#include "daemon/tools/match/evaluation.h"
 #include "tests/bench/bench_images.h"
 #include "tests/bench/npz_file.h"
 
@@ -29,36 +29,36 @@ std::optional<double> number_in(const std::string& json, const std::string& key)
   return std::stod(match[1].str());
 }
 
-cv::Mat read_grey_mat(const fs::path& path) {
-  // As stereo-match and the daemon read it; OpenCV's own reader makes slightly other greys of colours.
-  const GreyImage grey = read_grey(path);
-  cv::Mat copy(grey.height(), grey.width(), CV_8UC1);
-  for (int y = 0; y < grey.height(); ++y) std::copy_n(grey.row(y), grey.width(), copy.ptr(y));
+cv::Mat read_gray_mat(const fs::path& path) {
+  // As stereo-match and the daemon read it; OpenCV's own reader makes slightly other greys of colors.
+  const GrayImage gray = read_gray(path);
+  cv::Mat copy(gray.height(), gray.width(), CV_8UC1);
+  for (int y = 0; y < gray.height(); ++y) std::copy_n(gray.row(y), gray.width(), copy.ptr(y));
   return copy;
 }
 
 StereoSet load_set(const std::string& name, const fs::path& left, const fs::path& right, Image<float> truth,
                    int disparities) {
-  StereoSet set{name, read_grey_mat(left), read_grey_mat(right), std::move(truth), disparities};
+  StereoSet set{name, read_gray_mat(left), read_gray_mat(right), std::move(truth), disparities};
   if (set.left.size() != set.right.size() || view_of(set.left).size() != set.truth.size()) {
-    throw FileError(left.string() + ": the right picture or the ground truth has another size");
+    throw FileError(left.string() + ": the right image or the ground truth has another size");
   }
   return set;
 }
 
-/// Nothing if the folder is no set with ground truth.
-std::optional<StereoSet> load_middlebury(const fs::path& folder) {
-  std::ifstream file(folder / "meta.json");
+/// Nothing if the directory is no set with ground truth.
+std::optional<StereoSet> load_middlebury(const fs::path& directory) {
+  std::ifstream file(directory / "meta.json");
   const std::string json{std::istreambuf_iterator<char>(file), {}};
   const std::optional<double> scale = number_in(json, "gt_scale");
   const std::optional<double> disparities = number_in(json, "num_disparities_suggested");
   if (!scale || !disparities) return std::nullopt;
-  return load_set(folder.filename().string(), folder / "left.png", folder / "right.png",
-                  read_ground_truth(folder / "gt.png", *scale), static_cast<int>(*disparities));
+  return load_set(directory.filename().string(), directory / "left.png", directory / "right.png",
+                  read_ground_truth(directory / "gt.png", *scale), static_cast<int>(*disparities));
 }
 
 fs::path skimage_data() {
-  if (const char* folder = std::getenv("STEREO_SKIMAGE_DATA")) return folder;
+  if (const char* directory = std::getenv("STEREO_SKIMAGE_DATA")) return directory;
   return "/usr/lib/python3/dist-packages/skimage/data";
 }
 
@@ -67,17 +67,17 @@ class Loader {
   explicit Loader(const std::vector<std::string>& names) : names_(names) {}
 
   void add_middlebury() {
-    std::vector<fs::path> folders;
+    std::vector<fs::path> directories;
     std::error_code none;
     for (const fs::directory_entry& entry : fs::directory_iterator(datasets(), none)) {
-      if (wanted(entry.path().filename().string())) folders.push_back(entry.path());
+      if (wanted(entry.path().filename().string())) directories.push_back(entry.path());
     }
-    std::sort(folders.begin(), folders.end());
-    for (const fs::path& folder : folders) {
-      if (std::optional<StereoSet> set = load_middlebury(folder)) found_.sets.push_back(std::move(*set));
+    std::sort(directories.begin(), directories.end());
+    for (const fs::path& directory : directories) {
+      if (std::optional<StereoSet> set = load_middlebury(directory)) found_.sets.push_back(std::move(*set));
     }
     if (none) {
-      found_.missing.push_back("Middlebury: no folder " + datasets().string() +
+      found_.missing.push_back("Middlebury: no directory " + datasets().string() +
                                "; set STEREO_DATASETS to where the sets are");
     }
   }
@@ -88,7 +88,7 @@ class Loader {
     if (!fs::exists(data / "motorcycle_disp.npz")) {
       found_.missing.push_back("motorcycle: not in " + data.string() +
                                "; install python3-skimage, or unpack it (apt-get download, dpkg -x) and set "
-                               "STEREO_SKIMAGE_DATA to its folder skimage/data");
+                               "STEREO_SKIMAGE_DATA to its directory skimage/data");
       return;
     }
     found_.sets.push_back(load_set("motorcycle", data / "motorcycle_left.png", data / "motorcycle_right.png",
@@ -102,7 +102,7 @@ class Loader {
       found_.missing.push_back("aloe: not in " + data.string() + "; install opencv-doc");
       return;
     }
-    // Full resolution: the picture's grey values are pixels.
+    // Full resolution: the image's gray values are pixels.
     found_.sets.push_back(load_set("aloe", data / "aloeL.jpg", data / "aloeR.jpg",
                                    read_ground_truth(data / "aloeGT.png", 1), 224));
   }

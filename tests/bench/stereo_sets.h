@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "core/image.h"
+#include "core/base/image.h"
 
 namespace stereod::bench {
 
 struct StereoSet {
   std::string name;
-  cv::Mat left, right;  ///< grey, rectified, both of the same size
-  Image<float> truth;   ///< px in the left picture; unknown is +infinity
+  cv::Mat left, right;  ///< gray, rectified, both of the same size
+  Image<float> truth;   ///< px in the left image; unknown is +infinity
   int disparities = 0;  ///< how many to search, from 0; a multiple of 16, as OpenCV wants it
 };
 
@@ -22,7 +22,7 @@ struct StereoSets {
 };
 
 /// The Middlebury sets of datasets(), by name, then Motorcycle (Debian's package python3-skimage, or the
-/// folder STEREO_SKIMAGE_DATA) and Aloe (opencv-doc). `names` restricts them; empty is all. Throws FileError
+/// directory STEREO_SKIMAGE_DATA) and Aloe (opencv-doc). `names` restricts them; empty is all. Throws FileError
 /// for a set that is there but cannot be read, std::runtime_error for a name that there is no set of.
 StereoSets load_stereo_sets(const std::vector<std::string>& names);
 

@@ -13,7 +13,7 @@ constexpr int kWidth = 640, kHeight = 480, kDisparities = 64;
 constexpr float kFocal = 500, kBaseline = 0.24F, kCentreX = 320, kCentreY = 200;
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
-// A rectangle across one axis (0: x, 1: y, 2: z) at a place along it, metres: x to the right, y down, z
+// A rectangle across one axis (0: x, 1: y, 2: z) at a place along it, meters: x to the right, y down, z
 // ahead.
 struct Patch {
   StreetPart part;
@@ -66,7 +66,7 @@ float smooth_noise(float u, float v, std::uint32_t salt) {
                    std::lerp(lattice(ix, iy + 1, salt), lattice(ix + 1, iy + 1, salt), su), sv);
 }
 
-// Octaves from half a metre down to 8 mm; those finer than two of `footprint`, a pixel's size on the surface,
+// Octaves from half a meter down to 8 mm; those finer than two of `footprint`, a pixel's size on the surface,
 // are left out.
 float texture(float u, float v, float footprint, std::uint32_t salt) {
   float sum = 0;
@@ -108,7 +108,7 @@ float brightness(const Patch& patch, float u, float v, float footprint) {
 struct Seen {
   StreetPart part = StreetPart::kSky;
   float depth = kNever;
-  float grey = 235;
+  float gray = 235;
 };
 
 Seen look(const std::vector<Patch>& patches, float camera_x, float x, float y) {
@@ -138,7 +138,7 @@ cv::Mat1f render(const std::vector<Patch>& patches, float camera_x) {
       for (int i = 0; i < kRays * kRays; ++i) {
         picture(y, x) += look(patches, camera_x, static_cast<float>(x) + offset(i % kRays),
                               static_cast<float>(y) + offset(i / kRays))
-                             .grey /
+                             .gray /
                          (kRays * kRays);
       }
     }

@@ -15,12 +15,12 @@ inline constexpr std::array<const char*, 6> kStreetParts{"road",         "paveme
 
 struct Street {
   StereoSet set;
-  cv::Mat1b part;  ///< StreetPart of each pixel of the left picture
+  cv::Mat1b part;  ///< StreetPart of each pixel of the left image
 };
 
 /// 640×480 px, focal length 500 px, cameras 0.24 m apart and 1.2 m above a road of asphalt between kerbs;
 /// poles of 3 to 12 px on the pavements, a plain facade with windows at the left and one of stones at the
-/// right. Fine texture fades with distance, the pictures have noise of σ 2. The same on every run.
+/// right. Fine texture fades with distance, the images have noise of σ 2. The same on every run.
 Street street();
 
 }  // namespace stereod::bench

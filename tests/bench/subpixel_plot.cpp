@@ -15,7 +15,7 @@ constexpr int kMarginTop = 60;
 constexpr int kCellWidth = kDiagramWidth + kMarginLeft + 30;
 constexpr int kCellHeight = kDiagramHeight + kMarginTop + 50;
 
-// Blue, green, red; a colour-blind reader tells them apart by their lightness.
+// Blue, green, red; a color-blind reader tells them apart by their lightness.
 const std::array<cv::Scalar, 3> kColors{cv::Scalar(180, 90, 0), cv::Scalar(70, 170, 90),
                                         cv::Scalar(60, 60, 220)};
 const cv::Scalar kInk(60, 60, 60);

@@ -1,5 +1,5 @@
 // Parts of a pixel against a plane whose disparity is known: our interpolation, a parabola through the same
-// costs, and OpenCV's StereoBM. In the picture the thin line is what an unbiased one has. Prints the errors
+// costs, and OpenCV's StereoBM. In the image the thin line is what an unbiased one has. Prints the errors
 // and, with a file name, draws them.
 //   subpixel_sweep [PICTURE.png]
 #include <algorithm>
@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "core/match/block/prefilter.h"
 #include "core/match/frame_matcher.h"
-#include "core/match/prefilter.h"
 #include "tests/bench/subpixel_plot.h"
 
 namespace stereod::bench {
@@ -35,7 +35,7 @@ DisparityImage match_ours(const StereoPair& pair) {
 }
 
 DisparityImage match_opencv(const StereoPair& pair) {
-  const auto mat_of = [](const GreyImage& image) {
+  const auto mat_of = [](const GrayImage& image) {
     cv::Mat mat(image.height(), image.width(), CV_8UC1);
     for (int y = 0; y < image.height(); ++y) std::copy_n(image.row(y), image.width(), mat.ptr(y));
     return mat;
@@ -57,17 +57,17 @@ DisparityImage match_opencv(const StereoPair& pair) {
   return found;
 }
 
-GreyImage gradients_of(const GreyImage& grey) {
-  GreyImage gradients(grey.size());
-  const int last = grey.height() - 1;
+GrayImage gradients_of(const GrayImage& gray) {
+  GrayImage gradients(gray.size());
+  const int last = gray.height() - 1;
   for (int y = 0; y <= last; ++y) {
-    xsobel_row(grey.row(y == 0 ? 1 : y - 1), grey.row(y), grey.row(y == last ? last - 1 : y + 1),
-               grey.width(), kCap, gradients.row(y));
+    xsobel_row(gray.row(y == 0 ? 1 : y - 1), gray.row(y), gray.row(y == last ? last - 1 : y + 1),
+               gray.width(), kCap, gradients.row(y));
   }
   return gradients;
 }
 
-int cost_of(const GreyImage& left, const GreyImage& right, int x, int y, int disparity) {
+int cost_of(const GrayImage& left, const GrayImage& right, int x, int y, int disparity) {
   int cost = 0;
   for (int v = y - kWindow / 2; v <= y + kWindow / 2; ++v) {
     for (int u = x - kWindow / 2; u <= x + kWindow / 2; ++u) {
@@ -79,11 +79,11 @@ int cost_of(const GreyImage& left, const GreyImage& right, int x, int y, int dis
 
 /// Our whole numbers and costs, but the vertex of the parabola through the three costs.
 DisparityImage match_parabola(const StereoPair& pair) {
-  const GreyImage left = gradients_of(pair.left);
-  const GreyImage right = gradients_of(pair.right);
+  const GrayImage left = gradients_of(pair.left);
+  const GrayImage right = gradients_of(pair.right);
   DisparityImage found(left.size());
   for (int y = 0; y < found.height(); ++y) std::fill_n(found.row(y), found.width(), kInvalidDisparity);
-  // The whole number nearest to ours may be its neighbour; within one of it lies the least cost.
+  // The whole number nearest to ours may be its neighbor; within one of it lies the least cost.
   const DisparityImage ours = match_ours(pair);
   const int radius = kWindow / 2;
   for (int y = radius; y < found.height() - radius; ++y) {
@@ -124,7 +124,7 @@ void run(const std::string& picture) {
     SubpixelSweep sweep;
     sweep.noise = noise;
     SubpixelPanel panel;
-    panel.title = noise > 0 ? "noise of 4 grey levels" : "no noise";
+    panel.title = noise > 0 ? "noise of 4 gray levels" : "no noise";
     std::printf("%s\n", panel.title.c_str());
     for (const auto& [name, match] : {std::pair<const char*, SubpixelMatch>{"stereod", match_ours},
                                       {"parabola", match_parabola},

@@ -1,8 +1,8 @@
-// The lens whose pictures the benchmarks of rectification move.
+// The lens whose images the benchmarks of rectification move.
 #pragma once
 
-#include "core/calibration.h"
-#include "core/camera_model.h"
+#include "core/geometry/calibration.h"
+#include "core/geometry/camera_model.h"
 
 namespace stereod::bench {
 

@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/depth.h"
+#include "core/geometry/depth.h"
 #include "daemon/client/stereod_client.h"
 #include "daemon/config/calibration_file.h"
-#include "daemon/publish/lcm_bus.h"
+#include "daemon/lcm/bus.h"
 #include "stereod/depth_rows_t.hpp"
 #include "stereod/pointcloud_t.hpp"
 #include "tests/support/network.h"
@@ -38,7 +38,7 @@ class ClientE2e : public testing::Test {
   void SetUp() override {
     if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
     write_recorded_pairs(directory_.path(), kSize, 2);
-    std::ofstream(config_) << "cameras: {source: replay, fps: 20, replay: {folder: .}}\n"
+    std::ofstream(config_) << "cameras: {source: replay, fps: 20, replay: {directory: .}}\n"
                            << "calibration: calibration.yaml\n"
                            << "lcm: {url: \"" << kUrl << "\", prefix: CLIENT}\n";
     options_.url = kUrl;
@@ -95,7 +95,7 @@ TEST_F(ClientE2e, GivesDepthAsTheCalibrationSays) {
   EXPECT_TRUE(handle_until(client, [&] { return frames >= 5 || HasFailure(); }));
   EXPECT_GT(pixels, 5 * kSize.width * kSize.height / 3);
   EXPECT_EQ(client.counts().messages_ignored, 0);
-  EXPECT_EQ(problem_in_words(client.counts()), "");
+  EXPECT_EQ(describe_problems(client.counts()), "");
 }
 
 /// Decodes what comes on a channel.
@@ -115,8 +115,8 @@ void listen(lcm_t* lcm, const char* channel, std::vector<Message>& heard) {
 
 TEST_F(ClientE2e, DepthAndCloudAreThoseOfTheDisparities) {
   std::ofstream(config_, std::ios::app)
-      << "publish: {region: {left: 80, top: 60, width: 200, height: 120}, column_step: 2, depth: true, "
-         "cloud: true, cloud_step: 4}\n";
+      << "publish: {region: {left: 80, top: 60, width: 200, height: 120}, decimation_x: 2, depth: true, "
+         "cloud: true, cloud_decimation: 4}\n";
   lcm_t* lcm = lcm_create((std::string(kUrl) + "&recv_buf_size=212992").c_str());
   ASSERT_NE(lcm, nullptr);
   std::vector<depth_rows_t> depths;
@@ -209,7 +209,7 @@ TEST_F(ClientE2e, CarriesOnAmongRubbishAndSaysSo) {
   });
   EXPECT_TRUE(arrived);
   EXPECT_GT(client.counts().messages_ignored, 10);
-  EXPECT_THAT(problem_in_words(client.counts()), testing::HasSubstr("were no messages of this stereod"));
+  EXPECT_THAT(describe_problems(client.counts()), testing::HasSubstr("were no messages of this stereod"));
 }
 
 TEST_F(ClientE2e, TellsOfTwoDaemonsOnOneChannel) {
@@ -218,9 +218,9 @@ TEST_F(ClientE2e, TellsOfTwoDaemonsOnOneChannel) {
   client.on_frame([&](StereoFrame&&) { ++frames; });
   ChildProgram first = start_stereod();
   ASSERT_TRUE(handle_until(client, [&] { return frames >= 3; }));
-  ASSERT_EQ(problem_in_words(client.counts()), "");
+  ASSERT_EQ(describe_problems(client.counts()), "");
   ChildProgram second = start_stereod();
-  EXPECT_TRUE(handle_until(client, [&] { return !problem_in_words(client.counts()).empty(); }));
+  EXPECT_TRUE(handle_until(client, [&] { return !describe_problems(client.counts()).empty(); }));
   const int before = frames;
   EXPECT_TRUE(handle_until(client, [&] { return frames > before + 5; }));
 }

@@ -1,4 +1,4 @@
-#include "daemon/publish/lcm_bus.h"
+#include "daemon/lcm/bus.h"
 
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/tools/tap/lcm_receiver.h"
+#include "daemon/lcm/receiver.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/network.h"
 #include "tests/support/temporary_directory.h"
@@ -196,9 +196,9 @@ TEST(LcmReceiver, AsksForALargeReceiveBuffer) {
 TEST(LcmReceiver, AdvisesOnlyWhenTheKernelAllowsTooLittle) {
   EXPECT_FALSE(receive_buffer_advice(std::nullopt));
   EXPECT_FALSE(receive_buffer_advice(4 << 20));
-  const auto advice = receive_buffer_advice(212992);
-  ASSERT_TRUE(advice);
-  EXPECT_NE(advice->find("sudo sysctl -w net.core.rmem_max="), std::string::npos);
+  const auto instruction = receive_buffer_advice(212992);
+  ASSERT_TRUE(instruction);
+  EXPECT_NE(instruction->find("sudo sysctl -w net.core.rmem_max="), std::string::npos);
 }
 
 TEST(LcmUrl, DefaultsToTheEnvironmentAndThenToThisMachine) {

@@ -60,11 +60,11 @@ TEST_F(LogReplay, GivesTheSameDisparitiesToTheBitAtTheSameTimes) {
   const std::map<std::int64_t, StereoFrame> field = frames_of(log_, "FIELD");
   ASSERT_GT(field.size(), 5U);
 
-  const std::filesystem::path desk = directory_ / "desk.yaml", desk_log = directory_ / "desk.lcm";
-  std::ofstream(desk) << "cameras: {source: log, fps: 0, log: {file: field.lcm, prefix: FIELD}}\n"
-                      << "calibration: calibration.yaml\n"
-                      << "lcm: {url: \"file://" << desk_log.string() << "?mode=w\", prefix: DESK}\n";
-  const ProgramRun run = run_program(kBin / "stereod", {"--config", desk.string()}, directory_.path());
+  const std::filesystem::path pair_queue = directory_ / "desk.yaml", desk_log = directory_ / "desk.lcm";
+  std::ofstream(pair_queue) << "cameras: {source: log, fps: 0, log: {file: field.lcm, prefix: FIELD}}\n"
+                            << "calibration: calibration.yaml\n"
+                            << "lcm: {url: \"file://" << desk_log.string() << "?mode=w\", prefix: DESK}\n";
+  const ProgramRun run = run_program(kBin / "stereod", {"--config", pair_queue.string()}, directory_.path());
   EXPECT_EQ(run.status, 0) << run.err;
   const std::map<std::int64_t, StereoFrame> replayed = frames_of(desk_log, "DESK");
   ASSERT_GT(replayed.size(), 5U);
@@ -121,7 +121,7 @@ TEST_F(LogReplay, StereoTapSaysWhatIsInTheLogAndPlaysIt) {
   const ProgramRun bad = tap({"play", log_.string()});
   EXPECT_EQ(bad.status, 1);
   EXPECT_THAT(bad.err, HasSubstr("this is no LCM log"));
-  EXPECT_EQ(tap({"record", "/no/such/folder/x.lcm"}).status, 1);
+  EXPECT_EQ(tap({"record", "/no/such/directory/x.lcm"}).status, 1);
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ class ServiceE2e : public testing::Test {
   NotifySocket systemd_{directory_.path(), std::chrono::seconds(10)};
   const std::filesystem::path file_ = directory_ / "stereod.yaml";
   const std::filesystem::path log_ = directory_ / "published.lcm";
-  static constexpr const char* kFolder = "fps: 0, replay: {folder: .}";
+  static constexpr const char* kFolder = "fps: 0, replay: {directory: .}";
 };
 
 TEST_F(ServiceE2e, SighupTakesOverEverySettingWithoutLosingAFrame) {
@@ -91,11 +91,11 @@ TEST_F(ServiceE2e, SighupTakesOverEverySettingWithoutLosingAFrame) {
   };
   write(kFolder, "", "matcher: {preset: robust, disparities: 40}\ncalibration: calibration.yaml\n");
   reload();
-  write(kFolder, ", prefix: OTHER, rows_per_message: 5, spread: 0", "workers: 3\n");
+  write(kFolder, ", prefix: OTHER, rows_per_message: 5, pacing: 0", "workers: 3\n");
   reload();
-  write(kFolder, ", prefix: OTHER, spread: 0.1", "matcher: {windw: 3}\n");
+  write(kFolder, ", prefix: OTHER, pacing: 0.1", "matcher: {windw: 3}\n");
   reload();
-  write(kFolder, ", prefix: OTHER, spread: 0.1", "log: {level: error}\n");
+  write(kFolder, ", prefix: OTHER, pacing: 0.1", "log: {level: error}\n");
   reload();
   reload();  // would log, at another level
   stereod->send(SIGTERM);
@@ -181,7 +181,7 @@ TEST_F(ServiceE2e, WedgedItIsNotAliveAndAfterwardsItIsAgain) {
     while (::read(pipe, bytes.data(), bytes.size()) > 0) {
     }
   };
-  write("fps: 30, replay: {folder: .}", "", "");
+  write("fps: 30, replay: {directory: .}", "", "");
   const auto stereod = start();
   EXPECT_TRUE(systemd_.wait_for("WATCHDOG=1", std::chrono::seconds(60), empty_the_pipe))
       << stereod->err_so_far();

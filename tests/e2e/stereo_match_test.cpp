@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "core/calibration.h"
+#include "core/geometry/calibration.h"
 #include "daemon/config/calibration_file.h"
 #include "daemon/imagefile/pfm_file.h"
 #include "daemon/imagefile/read_image.h"
 #include "daemon/imagefile/write_image.h"
-#include "tests/support/picture_files.h"
+#include "tests/support/image_files.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_directory.h"
 
@@ -49,18 +49,18 @@ class StereoMatch : public testing::Test {
   StereoMatch() {
     write_pair(kSize);
     // The truth: 7 px everywhere, × 16; not known in the left columns, whose partners are outside.
-    GreyImage truth(kSize);
+    GrayImage truth(kSize);
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 20; x < kSize.width; ++x) truth.at(x, y) = 16 * kTrueDisparity;
     }
     write_png(directory_ / "truth.png", truth.view());
   }
 
-  /// A plane of random grey values at kTrueDisparity.
+  /// A plane of random gray values at kTrueDisparity.
   void write_pair(Size size) {
     const std::vector<int> texture = some_samples((size.width + kTrueDisparity) * size.height, 255);
-    GreyImage left(size);
-    GreyImage right(size);
+    GrayImage left(size);
+    GrayImage right(size);
     for (int y = 0; y < size.height; ++y) {
       for (int x = 0; x < size.width; ++x) {
         const int row = y * (size.width + kTrueDisparity);
@@ -106,7 +106,7 @@ TEST_F(StereoMatch, WritesDisparitiesInBothFormats) {
   expect_good(match_pair({"-o", file("out.pfm"), "--disparities", "16"}));
   expect_good(match_pair({"-o", file("out.png"), "--disparities", "16"}));
   const Image<float> pixels = read_pfm(directory_ / "out.pfm");
-  const Image<std::uint16_t> kitti = read_grey16(directory_ / "out.png");
+  const Image<std::uint16_t> kitti = read_gray16(directory_ / "out.png");
   ASSERT_EQ(pixels.size(), kSize);
   ASSERT_EQ(kitti.size(), kSize);
   EXPECT_NEAR(pixels.at(90, 60), kTrueDisparity, 0.1);
@@ -148,7 +148,7 @@ TEST_F(StereoMatch, SaysHowManyPixelsAreFilledInAndHowGoodTheOthersAre) {
   expect_good(filled);
   EXPECT_TRUE(contains(filled.out, "left.png, measured alone\n")) << filled.out;
   EXPECT_TRUE(contains(filled.out, "left.png, with what is filled\n")) << filled.out;
-  EXPECT_TRUE(contains(filled.out, "measured: [0-9.]+ % of the pixels; filled in from neighbours: [0-9.]+ %"))
+  EXPECT_TRUE(contains(filled.out, "measured: [0-9.]+ % of the pixels; filled in from neighbors: [0-9.]+ %"))
       << filled.out;
   const auto answered = [this] {
     const Image<float> pixels = read_pfm(directory_ / "o.pfm");
@@ -161,7 +161,7 @@ TEST_F(StereoMatch, SaysHowManyPixelsAreFilledInAndHowGoodTheOthersAre) {
   const long all = answered();
   EXPECT_EQ(all, static_cast<long>(kSize.width) * kSize.height);
   std::vector<std::string> without = common;
-  without.emplace_back("--no-fill");
+  without.emplace_back("--no-hole-filling");
   const ProgramRun sparse = match_pair(without);
   expect_good(sparse);
   EXPECT_FALSE(contains(sparse.out, "filled")) << sparse.out;
@@ -188,7 +188,7 @@ TEST_F(StereoMatch, PaintsAPicture) {
   EXPECT_GT(view.width(), kSize.width) << "the scale bar";
 }
 
-// Ten and a half rows up: bilinear is the mean of two rows, nearest one of them; zoomed out, there is a
+// Ten and a half rows up: bilinear is the mean of two rows, nearest one of them; with_alpha out, there is a
 // margin.
 TEST_F(StereoMatch, RectifiesAsItIsToldTo) {
   Calibration calibration;
@@ -202,15 +202,15 @@ TEST_F(StereoMatch, RectifiesAsItIsToldTo) {
                                        file("r.png")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     expect_good(match_pair(arguments));
-    return read_grey(directory_ / "r.png");
+    return read_gray(directory_ / "r.png");
   };
   std::ofstream(directory_ / "stereod.yaml")
       << "cameras: {source: synthetic}\nrectify: {interpolation: nearest}\n";
-  const GreyImage source = read_grey(directory_ / "right.png");
-  const GreyImage bilinear = rectified({});
-  const GreyImage nearest = rectified({"--interpolation", "nearest"});
-  const GreyImage configured = rectified({"--config", file("stereod.yaml")});
-  const GreyImage zoomed = rectified({"--zoom", "1"});
+  const GrayImage source = read_gray(directory_ / "right.png");
+  const GrayImage bilinear = rectified({});
+  const GrayImage nearest = rectified({"--interpolation", "nearest"});
+  const GrayImage configured = rectified({"--config", file("stereod.yaml")});
+  const GrayImage with_alpha = rectified({"--alpha", "1"});
   for (int y = 0; y + 12 < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
       const int above = source.at(x, y + 10), below = source.at(x, y + 11);
@@ -219,10 +219,11 @@ TEST_F(StereoMatch, RectifiesAsItIsToldTo) {
       ASSERT_EQ(configured.at(x, y), nearest.at(x, y));
     }
   }
-  const std::uint8_t* last = zoomed.row(kSize.height - 1);
+  const std::uint8_t* last = with_alpha.row(kSize.height - 1);
   EXPECT_EQ(std::count(last, last + kSize.width, 0), kSize.width);
   expect_refused(match_pair({"--repeat", "1", "--interpolation", "bilinear"}), {"--calibration"});
-  expect_refused(match_pair({"--repeat", "1", "--calibration", file("rig.yaml"), "--zoom", "2"}), {"--zoom"});
+  expect_refused(match_pair({"--repeat", "1", "--calibration", file("rig.yaml"), "--alpha", "2"}),
+                 {"--alpha"});
   expect_refused(match_pair({"--repeat", "1", "--calibration", file("rig.yaml"), "--interpolation", "cubic"}),
                  {"nearest, bilinear"});
 }
@@ -237,10 +238,10 @@ TEST_F(StereoMatch, RectifiesFirst) {
   write_calibration(directory_ / "rig.yaml", calibration);
   expect_good(match_pair({"--calibration", file("rig.yaml"), "--rectified", file("l.png"), file("r.png"),
                           "--color", file("view.png")}));
-  const GreyImage right = read_grey(directory_ / "right.png");
-  const GreyImage rectified = read_grey(directory_ / "r.png");
-  const GreyImage left = read_grey(directory_ / "left.png");
-  const GreyImage rectified_left = read_grey(directory_ / "l.png");
+  const GrayImage right = read_gray(directory_ / "right.png");
+  const GrayImage rectified = read_gray(directory_ / "r.png");
+  const GrayImage left = read_gray(directory_ / "left.png");
+  const GrayImage rectified_left = read_gray(directory_ / "l.png");
   for (int y = 0; y < kSize.height - 3; ++y) {
     EXPECT_TRUE(std::equal(left.row(y), left.row(y) + kSize.width, rectified_left.row(y))) << y;
     EXPECT_TRUE(std::equal(right.row(y + 3), right.row(y + 3) + kSize.width, rectified.row(y))) << y;
@@ -302,12 +303,12 @@ TEST_F(StereoMatch, RefusesImpossibleMatcherSettings) {
   refused({"--method", "block", "--cost", "ssd", "--implementation", "simd"}, {"cost"});
   refused({"--window", "9"}, {"--window", "--method block", "semiglobal"});
   refused({"--preset", "fast", "--p2", "9"}, {"--p2", "--method semiglobal", "block"});
-  refused({"--preset", "fast", "--fill"}, {"--fill", "--method semiglobal"});
+  refused({"--preset", "fast", "--hole-filling"}, {"--hole-filling", "--method semiglobal"});
   refused({"--preset", "fast", "--census-weight", "3"}, {"--census-weight", "--method semiglobal"});
   refused({"--census-weight", "17"}, {"census_weight is 17", "0 to 16"});
   refused({"--gradient-limit", "65"}, {"gradient_limit is 65", "0 to 64"});
-  refused({"--preset", "dense", "--method", "block"}, {"fill", "--no-fill"});
-  refused({"--fill", "--no-fill"}, {"--fill excludes --no-fill"});
+  refused({"--preset", "dense", "--method", "block"}, {"hole_filling", "--no-hole-filling"});
+  refused({"--hole-filling", "--no-hole-filling"}, {"--hole-filling excludes --no-hole-filling"});
   refused({"--method", "census"}, {"--method: 'census'", "block, semiglobal"});
 }
 
@@ -322,13 +323,13 @@ TEST_F(StereoMatch, RefusesBadPictures) {
   refused(file("left.png"), directory_.path().string(), {directory_.path().string() + ": is a directory"});
   write_bytes(directory_ / "empty.png", {});
   refused(file("empty.png"), file("right.png"), {file("empty.png") + ": the file is empty"});
-  write_bytes(directory_ / "text.png", bytes_of("not a picture"));
-  refused(file("text.png"), file("right.png"), {file("text.png") + ": is no picture that is known here"});
+  write_bytes(directory_ / "text.png", bytes_of("not a image"));
+  refused(file("text.png"), file("right.png"), {file("text.png") + ": is no image that is known here"});
   Bytes half = bytes_in(directory_ / "right.png");
   half.resize(half.size() / 2);
   write_bytes(directory_ / "half.png", half);
   refused(file("left.png"), file("half.png"), {file("half.png") + ": the PNG file is truncated"});
-  write_png(directory_ / "small.png", GreyImage(150, 120).view());
+  write_png(directory_ / "small.png", GrayImage(150, 120).view());
   refused(file("left.png"), file("small.png"),
           {file("small.png") + ": has 150×120 pixels", file("left.png") + " has 160×120"});
 }
@@ -357,7 +358,7 @@ TEST_F(StereoMatch, RefusesOutputsThatItCannotWrite) {
 TEST_F(StereoMatch, RefusesBadGroundTruth) {
   expect_refused(match_pair({"--ground-truth", file("none.png")}),
                  {file("none.png") + ": the file does not exist"});
-  write_png(directory_ / "small.png", GreyImage(150, 120).view());
+  write_png(directory_ / "small.png", GrayImage(150, 120).view());
   expect_refused(match_pair({"--ground-truth", file("small.png")}),
                  {file("small.png") + ": has 150×120 pixels", file("left.png") + " has 160×120"});
 }

@@ -20,9 +20,9 @@
 #include "daemon/imagefile/pfm_file.h"
 #include "daemon/imagefile/read_image.h"
 #include "daemon/imagefile/write_image.h"
+#include "daemon/lcm/message_decoder.h"
+#include "daemon/lcm/receiver.h"
 #include "daemon/tools/tap/frame_listener.h"
-#include "daemon/tools/tap/lcm_receiver.h"
-#include "daemon/tools/tap/message_decoder.h"
 #include "tests/support/foreign_isa.h"
 #include "tests/support/network.h"
 #include "tests/support/recorded_pairs.h"
@@ -43,7 +43,7 @@ class StereodTest : public testing::Test {
  protected:
   std::filesystem::path write_config(const std::string& matcher, const std::string& more = "") {
     const std::filesystem::path file = directory_ / "stereod.yaml";
-    std::ofstream(file) << "cameras:\n  source: replay\n  fps: 10\n  replay: {folder: ., loop: true}\n"
+    std::ofstream(file) << "cameras:\n  source: replay\n  fps: 10\n  replay: {directory: ., loop: true}\n"
                         << "calibration: calibration.yaml\n"
                         << "matcher: " << matcher << "\n"
                         << "lcm: {url: \"" << kUrl << "\", prefix: E2E}\n"
@@ -59,17 +59,17 @@ class StereodTest : public testing::Test {
 };
 
 /// What stereo-match makes of a recorded pair.
-Image<float> matched_by_tool(const std::filesystem::path& folder, int number,
+Image<float> matched_by_tool(const std::filesystem::path& directory, int number,
                              const std::vector<std::string>& options) {
-  const std::filesystem::path out = folder / "expected.pfm";
-  std::vector<std::string> arguments{recorded_left(folder, number).string(),
-                                     recorded_right(folder, number).string(),
+  const std::filesystem::path out = directory / "expected.pfm";
+  std::vector<std::string> arguments{recorded_left(directory, number).string(),
+                                     recorded_right(directory, number).string(),
                                      "-o",
                                      out.string(),
                                      "--calibration",
-                                     (folder / "calibration.yaml").string()};
+                                     (directory / "calibration.yaml").string()};
   arguments.insert(arguments.end(), options.begin(), options.end());
-  const ProgramRun run = run_program(kBin / "stereo-match", arguments, folder);
+  const ProgramRun run = run_program(kBin / "stereo-match", arguments, directory);
   EXPECT_EQ(run.status, 0) << run.err;
   return read_pfm(out);
 }
@@ -145,8 +145,9 @@ TEST_F(StereodTest, PlaysARecordingOnceAndEnds) {
   if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
   write_recorded_pairs(directory_.path(), kSize, kPairs);
   const std::filesystem::path file = directory_ / "once.yaml";
-  std::ofstream(file) << "cameras: {source: replay, fps: 0, replay: {folder: ., loop: false}}\nlcm: {url: \""
-                      << kUrl << "\", prefix: E2E}\n";
+  std::ofstream(file)
+      << "cameras: {source: replay, fps: 0, replay: {directory: ., loop: false}}\nlcm: {url: \"" << kUrl
+      << "\", prefix: E2E}\n";
   int frames = 0;
   FrameAssembler assembler([&](StereoFrame&& frame) {
     EXPECT_EQ(frame.summary->left_sequence, frames);
@@ -228,18 +229,18 @@ TEST_F(StereodTest, MissingCamerasAreAStateAndNoReasonToEnd) {
   EXPECT_EQ(stereod.wait().status, 0);
 }
 
-// A recording in which the right camera is knocked: from one picture on it looks four rows lower.
+// A recording in which the right camera is knocked: from one image on it looks four rows lower.
 TEST_F(StereodTest, AKnockedCameraIsNamedWithinSeconds) {
   if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
   if (kSanitized) {
     GTEST_SKIP() << "a sanitizer slows the probe more than the matcher, whose time it may take a share of";
   }
-  constexpr int kBefore = 200, kAfter = 300, kPictures = 4;
-  write_recorded_pairs(directory_.path(), kSize, kPictures);
+  constexpr int kBefore = 200, kAfter = 300, kImages = 4;
+  write_recorded_pairs(directory_.path(), kSize, kImages);
   std::filesystem::create_directory(directory_ / "play");
-  for (int i = 0; i < kPictures; ++i) {
-    const GreyImage right = read_grey(recorded_right(directory_.path(), i));
-    GreyImage lower(right.size());
+  for (int i = 0; i < kImages; ++i) {
+    const GrayImage right = read_gray(recorded_right(directory_.path(), i));
+    GrayImage lower(right.size());
     for (int y = 0; y < lower.height(); ++y) {
       std::copy_n(right.row(std::max(y - 4, 0)), lower.width(), lower.row(y));
     }
@@ -249,14 +250,14 @@ TEST_F(StereodTest, AKnockedCameraIsNamedWithinSeconds) {
     const auto name = [&](const char* side) {
       return directory_ / "play" / (side + std::to_string(i) + ".png");
     };
-    std::filesystem::create_symlink(recorded_left(directory_.path(), i % kPictures), name("left_"));
+    std::filesystem::create_symlink(recorded_left(directory_.path(), i % kImages), name("left_"));
     std::filesystem::create_symlink(i < kBefore
-                                        ? recorded_right(directory_.path(), i % kPictures)
-                                        : directory_ / ("lower_" + std::to_string(i % kPictures) + ".png"),
+                                        ? recorded_right(directory_.path(), i % kImages)
+                                        : directory_ / ("lower_" + std::to_string(i % kImages) + ".png"),
                                     name("right_"));
   }
   const std::filesystem::path file = directory_ / "knock.yaml";
-  std::ofstream(file) << "cameras: {source: replay, fps: 20, replay: {folder: play, loop: false}}\n"
+  std::ofstream(file) << "cameras: {source: replay, fps: 20, replay: {directory: play, loop: false}}\n"
                       << "calibration: calibration.yaml\nlcm: {url: \"" << kUrl << "\", prefix: E2E}\n";
   LcmReceiver receiver(kUrl);
   std::vector<status_t> before, after;
@@ -274,17 +275,17 @@ TEST_F(StereodTest, AKnockedCameraIsNamedWithinSeconds) {
   const ProgramRun run = stereod.wait();
   ASSERT_FALSE(before.empty()) << run.err;
   for (const status_t& status : before) EXPECT_EQ(status.state, "streaming") << status.reason;
-  EXPECT_GT(before.back().row_error_points, 0);
-  EXPECT_LT(before.back().row_error_px, 0.5);
+  EXPECT_GT(before.back().epipolar_points, 0);
+  EXPECT_LT(before.back().epipolar_error_px, 0.5);
   ASSERT_FALSE(after.empty());
   const status_t& last = after.back();
   EXPECT_EQ(last.state, "degraded");
   EXPECT_NE(last.reason.find("was a camera knocked?"), std::string::npos) << last.reason;
   EXPECT_NE(last.reason.find(" px apart, by "), std::string::npos) << last.reason;
-  EXPECT_GT(last.row_error_px, 1);
+  EXPECT_GT(last.epipolar_error_px, 1);
   // In recorded time, which is not the machine's load's.
   EXPECT_LE(last.left.frames, kBefore + 20 * 6);
-  EXPECT_NE(run.err.find("state: degraded: rows of the rectified pictures"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("state: degraded: rows of the rectified images"), std::string::npos) << run.err;
 }
 
 TEST_F(StereodTest, ListsCameras) {
@@ -393,7 +394,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadStart{"CalibrationOfNoCamera",
                  "cameras: {source: synthetic, synthetic: {width: 320, height: 240}}\ncalibration: "
                  "elsewhere.yaml\n",
-                 "only 0.0 % of the left rectified picture"},
+                 "only 0.0 % of the left rectified image"},
         BadStart{"MissingCalibration", "cameras: {source: synthetic}\ncalibration: gone.yaml\n", "gone.yaml"},
         BadStart{"ImpossibleIsa",
                  "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nmatcher: {isa: " +

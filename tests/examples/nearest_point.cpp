@@ -1,4 +1,4 @@
-// Prints the nearest point of each frame, in metres, for as many frames as the command line says.
+// Prints the nearest point of each frame, in meters, for as many frames as the command line says.
 //   example_nearest_point FRAMES [PREFIX]
 #include <cstdio>
 #include <cstdlib>
@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
       --frames;
     });
     while (frames > 0) client.handle(1000);
-    std::fputs(stereod::problem_in_words(client.counts()).c_str(), stderr);
+    std::fputs(stereod::describe_problems(client.counts()).c_str(), stderr);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -30,10 +30,10 @@ struct Input {
     device.size = {16 + head[1] % 4 * 16, 8 + head[2] % 4 * 8};
     device.bytes_per_line = head[3];
     filled.error = (head[4] & 1) != 0;
-    filled.stamp_monotonic = (head[4] & 2) != 0;
-    filled.stamp_start = (head[4] & 4) != 0;
-    std::memcpy(&filled.stamp_ns, head + 5, 8);
-    if ((head[4] & 8) != 0) filled.stamp_ns = kNow - head[5] * 1'000'000;
+    filled.timestamp_monotonic = (head[4] & 2) != 0;
+    filled.timestamp_start = (head[4] & 4) != 0;
+    std::memcpy(&filled.timestamp_ns, head + 5, 8);
+    if ((head[4] & 8) != 0) filled.timestamp_ns = kNow - head[5] * 1'000'000;
     if (size > kHead) buffer.assign(data + kHead, data + size);
     filled.bytes = static_cast<std::uint32_t>(buffer.size());
     if ((head[4] & 16) != 0) std::memcpy(&filled.bytes, head + 12, 4);
@@ -68,7 +68,7 @@ void check(const Input& input) {
     must(drop == FrameDrop::kDriverError || drop == FrameDrop::kEmpty || drop == FrameDrop::kShort);
     return;
   }
-  StampKeeper stamps;
+  TimestampFilter stamps;
   stamps.begin(33'333'333, 0);
   std::int64_t start_ns = 0;
   if (!stamps.start_of_exposure(input.filled, kNow, start_ns, drop)) {
@@ -76,7 +76,7 @@ void check(const Input& input) {
   } else {
     must(start_ns <= kNow + 20'000'000 && start_ns >= kNow - 1'100'000'000);
   }
-  GreyImage picture(input.device.size);
+  GrayImage picture(input.device.size);
   const std::span<const std::uint8_t> bytes(input.buffer.data(), input.filled.bytes);
   switch (input.format.work) {
     case LumaWork::kNone:

@@ -28,7 +28,7 @@ Bytes two_frames() {
     for (int y = 0; y < kHeight; y += kRowsPerMessage) {
       disparity_rows_t rows = rows_of(frame, y);
       rows.left = 20;
-      rows.row_step = 2;
+      rows.decimation_y = 2;
       if (y >= 4) mark_filled(rows, [](int x, int) { return x % 3 == 0; });
       append(seed, 0, rows);
     }

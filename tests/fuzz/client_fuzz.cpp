@@ -59,7 +59,7 @@ void run(const std::uint8_t* data, std::size_t size) {
     data += 3 + length;
     size -= 3 + length;
   }
-  problem_in_words(client->counts());
+  describe_problems(client->counts());
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   stereod::Random random(11);
   int inputs = 0, frames = 0;
   for (const stereod::Bytes& seed : stereod::seeds()) {
-    // Twice: what an input before it left in the decoder may cost one picture, not more.
+    // Twice: what an input before it left in the decoder may cost one image, not more.
     for (int i = 0; i < 2; ++i) LLVMFuzzerTestOneInput(seed.data(), seed.size());
     if (!stereod::last_input_was_a_frame) {
       std::fprintf(stderr, "the input of format %d is no frame, so that changing it tests nothing\n",

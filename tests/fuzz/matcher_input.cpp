@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <sstream>
 
+#include "core/base/cpu.h"
 #include "core/match/band_matcher.h"
 #include "core/match/frame_matcher.h"
-#include "core/match/isa.h"
 #include "tests/support/matcher_cases.h"
 
 namespace stereod {
 namespace {
 
-constexpr int kMostColumns = 96;
-constexpr int kMostRows = 40;
-constexpr double kMostWork = 8e6;  // differences of the naive implementation: some milliseconds
+constexpr int kMaxColumns = 96;
+constexpr int kMaxRows = 40;
+constexpr double kMaxWork = 8e6;  // differences of the naive implementation: some milliseconds
 
 /// Takes numbers from the front of the bytes; zeros after the end.
 class Bytes {
@@ -45,7 +45,7 @@ void make_semiglobal(Bytes& bytes, MatcherOptions& o) {
   o.p2 = bytes.byte();
   o.census_weight = bytes.byte() % 17;
   o.gradient_limit = bytes.byte() % 65;
-  o.fill = bytes.byte() % 2 != 0;
+  o.hole_filling = bytes.byte() % 2 != 0;
 }
 
 MatcherOptions options_of(Bytes& bytes) {
@@ -75,7 +75,7 @@ std::optional<ValidityMask> mask_of(Bytes& bytes, Size size) {
   if (kind < 2) return std::nullopt;
   Random random(static_cast<std::uint64_t>(number));
   return ValidityMask(size, [&](int x, int) {
-    return kind == 2 ? !random.one_in(1 + number % 16) : x < number % kMostColumns;
+    return kind == 2 ? !random.one_in(1 + number % 16) : x < number % kMaxColumns;
   });
 }
 
@@ -92,14 +92,14 @@ StereoPair pair_of(Bytes& bytes, Size size) {
   const auto pixel = [&](std::size_t at) -> std::uint8_t {
     return pixels.empty() ? std::uint8_t{0} : pixels[at % pixels.size()];
   };
-  StereoPair pair{GreyImage(size), GreyImage(size)};
+  StereoPair pair{GrayImage(size), GrayImage(size)};
   std::size_t at = 0;
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) pair.right.at(x, y) = pixel(at++);
   }
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
-      // 1: pictures that have nothing to do with each other; 2: the same, shifted; 3: shifted, and brighter.
+      // 1: images that have nothing to do with each other; 2: the same, shifted; 3: shifted, and brighter.
       if (kind == 1 || x < shift) {
         pair.left.at(x, y) = pixel(at++);
       } else {
@@ -174,7 +174,7 @@ std::string complaint(const MatcherInput& input, const MatcherOptions& options, 
 
 std::optional<MatcherInput> matcher_input(std::span<const std::uint8_t> data) {
   Bytes bytes(data);
-  const Size size{1 + bytes.byte() % kMostColumns, 1 + bytes.byte() % kMostRows};
+  const Size size{1 + bytes.byte() % kMaxColumns, 1 + bytes.byte() % kMaxRows};
   MatcherInput input;
   input.options = options_of(bytes);
   const int window = input.options.window;
@@ -186,9 +186,9 @@ std::optional<MatcherInput> matcher_input(std::span<const std::uint8_t> data) {
   const double work = input.options.method == Method::kBlock
                           ? columns * rows * disparities * window * window
                           : kSemiglobalWork * size.width * size.height * input.options.disparities;
-  if (work > kMostWork) return std::nullopt;
+  if (work > kMaxWork) return std::nullopt;
   for (int row = 0; row < size.height - 1;) {
-    row += 1 + bytes.byte() % kMostRows;
+    row += 1 + bytes.byte() % kMaxRows;
     if (row < size.height) input.cuts.push_back(row);
   }
   input.left_mask = mask_of(bytes, size);

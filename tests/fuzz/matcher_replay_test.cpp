@@ -54,7 +54,7 @@ TEST(MatcherFuzzReplay, BytesReachEveryOption) {
     wide += input->options.window >= 17;
     masks += input->left_mask.has_value();
     semiglobal += input->options.method == Method::kSemiglobal;
-    filled += input->options.fill;
+    filled += input->options.hole_filling;
     surfaces += input->pair.left.width() >= input->options.window && input->options.min_disparity == 0;
   }
   for (const int count : {prefilters, medians, speckles, wide, masks, semiglobal, filled})

@@ -54,7 +54,7 @@ size=$(stat -c %s "$scratch/stripped")
 echo "footprint: stripped binary: $size bytes; allowed are $largest_binary"
 [[ $size -le $largest_binary ]] || fail "the binary is too large"
 
-# Pictures are there at once, as from cameras that stream already.
+# Images are there at once, as from cameras that stream already.
 for side in left right; do
   { printf 'P5\n640 480\n255\n' && head -c $((640 * 480)) /dev/urandom; } >"$scratch/$side.pgm"
 done

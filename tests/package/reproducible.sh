@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Two builds of the same commit, in two folders and under other circumstances (time zone, language, umask, user's home), give
+# Two builds of the same commit, in two directories and under other circumstances (time zone, language, umask, user's home), give
 # the same packages byte for byte.
 #   reproducible.sh [COMMIT [FOLDER-OF-DEBS]]
 # Builds everything twice, without a compiler cache: some fifteen minutes on two cores; once, if there are packages of the
-# commit already (preset package), made in another folder than this builds in.
+# commit already (preset package), made in another directory than this builds in.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 commit=$(git rev-parse "${1:-HEAD}")
@@ -20,16 +20,16 @@ fail() {
 
 # build FOLDER VARIABLE=VALUE…
 build() {
-  local folder=$1
+  local directory=$1
   shift
-  mkdir -p "$folder"
-  git archive "$commit" | tar -x -C "$folder"
-  (cd "$folder" && env "$@" sh -c 'cmake --preset package && cmake --build --preset package -j "$1" && cpack --preset package' \
-    sh "${JOBS:-$(nproc)}") >"$folder.log" 2>&1 || { tail -n 30 "$folder.log" && fail "it does not build in $folder"; }
+  mkdir -p "$directory"
+  git archive "$commit" | tar -x -C "$directory"
+  (cd "$directory" && env "$@" sh -c 'cmake --preset package && cmake --build --preset package -j "$1" && cpack --preset package' \
+    sh "${JOBS:-$(nproc)}") >"$directory.log" 2>&1 || { tail -n 30 "$directory.log" && fail "it does not build in $directory"; }
 }
 
 first=${2:-$work/a/build/package}
-second=$work/another/folder-with-a-longer-name
+second=$work/another/directory-with-a-longer-name
 mkdir -p "$work/another" "$work/home"
 [[ -n ${2:-} ]] || (umask 022 && build "$work/a" TZ=UTC LC_ALL=C)
 (umask 077 && build "$second" TZ=Pacific/Kiritimati LC_ALL=C.UTF-8 HOME="$work/home")

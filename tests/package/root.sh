@@ -18,7 +18,7 @@ need_root() {
 }
 
 # in_namespace [ARGUMENT…]: runs the test once more with --inside and the arguments, where nothing that is mounted or left
-# running gets out, and ends as it does. There it has a folder of its own, $work, and the network of the machine, which apt needs.
+# running gets out, and ends as it does. There it has a directory of its own, $work, and the network of the machine, which apt needs.
 in_namespace() {
   work=$(mktemp -d)
   local status=0

@@ -14,7 +14,7 @@
 namespace stereod {
 namespace {
 
-// Constant-initialised, because the first allocations come before any constructor runs.
+// Constant-initialized, because the first allocations come before any constructor runs.
 constinit std::atomic<std::uint64_t> allocations{0};
 
 }  // namespace

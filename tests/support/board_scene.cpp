@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "daemon/capture/synthetic_board.h"
+#include "daemon/capture/synthetic/synthetic_board.h"
 #include "tests/support/random_images.h"
 
 namespace stereod {
@@ -15,9 +15,9 @@ BoardShape shape_of(const Board& board) { return {board.columns, board.rows, boa
 
 }  // namespace
 
-StereoCameras known_cameras(Size image, LensModel lens) {
+StereoRigEstimate known_cameras(Size image, LensModel lens) {
   const double scale = image.width / 640.0;
-  StereoCameras cameras;
+  StereoRigEstimate cameras;
   const double f = lens == LensModel::kFisheye ? 330 * scale : 560 * scale;
   cameras.left = {image, f, f * 1.002, 318.3 * scale, 243.1 * scale};
   cameras.right = {image, f * 1.01, f * 1.012, 325.7 * scale, 236.4 * scale};
@@ -33,7 +33,7 @@ StereoCameras known_cameras(Size image, LensModel lens) {
   return cameras;
 }
 
-BoardScene::BoardScene(const StereoCameras& cameras, const Board& board)
+BoardScene::BoardScene(const StereoRigEstimate& cameras, const Board& board)
     : cameras_(cameras), board_(board), left_(make_view(cameras.left)), right_(make_view(cameras.right)) {}
 
 BoardScene::View BoardScene::make_view(const CameraModel& camera) {
@@ -49,36 +49,35 @@ BoardScene::View BoardScene::make_view(const CameraModel& camera) {
   return view;
 }
 
-GreyImage BoardScene::render(const View& view, const BoardPose& pose, std::uint64_t noise_seed) const {
+GrayImage BoardScene::render(const View& view, const BoardPose& pose, std::uint64_t noise_seed) const {
   Random random(noise_seed);
-  GreyImage picture(view.camera.image);
+  GrayImage picture(view.camera.image);
   const SyntheticBoard board(shape_of(board_), {pose.rotation, pose.translation_m}, view.camera.fx);
   for (int y = 0; y < picture.height(); ++y) {
     SceneHit ground;  // infinitely far off
     ground.brightness = 90 + 20 * static_cast<float>(y) / static_cast<float>(picture.height());
     for (int x = 0; x < picture.width(); ++x) {
-      const double grey = board.hit({0, view.ray_x.at(x, y), view.ray_y.at(x, y)}, ground).brightness;
-      picture.at(x, y) = static_cast<std::uint8_t>(std::clamp(grey + random.between(-3, 3), 0.0, 255.0));
+      const double gray = board.hit({0, view.ray_x.at(x, y), view.ray_y.at(x, y)}, ground).brightness;
+      picture.at(x, y) = static_cast<std::uint8_t>(std::clamp(gray + random.between(-3, 3), 0.0, 255.0));
     }
   }
   return picture;
 }
 
-PicturePair BoardScene::render(const BoardPose& in_left, std::uint64_t noise_seed) const {
+ImagePair BoardScene::render(const BoardPose& in_left, std::uint64_t noise_seed) const {
   return {"pair " + std::to_string(noise_seed), render(left_, in_left, 2 * noise_seed),
           render(right_, seen_from_right(cameras_.pose, in_left), 2 * noise_seed + 1)};
 }
 
-GreyImage copy_of(const GreyImage& picture) {
-  GreyImage result(picture.size());
+GrayImage copy_of(const GrayImage& picture) {
+  GrayImage result(picture.size());
   copy_pixels(picture.view(), result.view());
   return result;
 }
 
-std::vector<PicturePair> copy_of(const std::vector<PicturePair>& pairs) {
-  std::vector<PicturePair> result;
-  for (const PicturePair& pair : pairs)
-    result.push_back({pair.name, copy_of(pair.left), copy_of(pair.right)});
+std::vector<ImagePair> copy_of(const std::vector<ImagePair>& pairs) {
+  std::vector<ImagePair> result;
+  for (const ImagePair& pair : pairs) result.push_back({pair.name, copy_of(pair.left), copy_of(pair.right)});
   return result;
 }
 

@@ -4,24 +4,24 @@
 #include <cstdint>
 #include <vector>
 
-#include "calib/board.h"
-#include "calib/pair_geometry.h"
-#include "calib/pair_input.h"
+#include "calib/base/pair_input.h"
+#include "calib/board/board.h"
+#include "calib/solve/pair_geometry.h"
 
 namespace stereod {
 
 /// Two ordinary cameras, not quite alike, 6 cm apart and a little turned to each other, with lenses of this
 /// model.
-StereoCameras known_cameras(Size image, LensModel lens = LensModel::kPinhole);
+StereoRigEstimate known_cameras(Size image, LensModel lens = LensModel::kPinhole);
 
-/// Renders a board of dark and bright squares with a white border on grey ground, with smooth edges as a lens
+/// Renders a board of dark and bright squares with a white border on gray ground, with smooth edges as a lens
 /// makes them and a little noise.
 class BoardScene {
  public:
-  BoardScene(const StereoCameras& cameras, const Board& board);
+  BoardScene(const StereoRigEstimate& cameras, const Board& board);
 
   /// The board in a pose for the left camera.
-  PicturePair render(const BoardPose& in_left, std::uint64_t noise_seed) const;
+  ImagePair render(const BoardPose& in_left, std::uint64_t noise_seed) const;
 
  private:
   struct View {
@@ -29,16 +29,16 @@ class BoardScene {
     Image<float> ray_x, ray_y;  // (x, y, 1) of each pixel; NaN where the lens shows nothing
   };
   static View make_view(const CameraModel& camera);
-  GreyImage render(const View& view, const BoardPose& pose, std::uint64_t noise_seed) const;
+  GrayImage render(const View& view, const BoardPose& pose, std::uint64_t noise_seed) const;
 
-  StereoCameras cameras_;
+  StereoRigEstimate cameras_;
   Board board_;
   View left_, right_;
 };
 
-/// Pictures own their memory; a test that spoils one works on a copy.
-GreyImage copy_of(const GreyImage& picture);
-std::vector<PicturePair> copy_of(const std::vector<PicturePair>& pairs);
+/// Images own their memory; a test that spoils one works on a copy.
+GrayImage copy_of(const GrayImage& picture);
+std::vector<ImagePair> copy_of(const std::vector<ImagePair>& pairs);
 
 /// A board whose middle is at `middle` for the left camera, facing it, then turned by `turn` (a rotation
 /// vector).

@@ -30,12 +30,12 @@ struct CameraBench {
     config.v4l2.left = "/dev/v4l/by-path/port-1";
     config.v4l2.right = "/dev/v4l/by-path/port-2";
     config.v4l2.exposure = ExposureMode::kAuto;
-    config.v4l2.align = AlignMode::kNever;
+    config.v4l2.sync = SyncMode::kNone;
   }
 
   void make() {
     const CameraLog to_log = [this](LogLevel, const std::string& sentence) { log.push_back(sentence); };
-    pair = std::make_shared<CameraPair>(config);
+    pair = std::make_shared<V4l2PairState>(config);
     left = std::make_unique<V4l2Camera>(video, pair, Side::kLeft, config, to_log);
     right = std::make_unique<V4l2Camera>(video, pair, Side::kRight, config, to_log);
   }
@@ -68,7 +68,7 @@ struct CameraBench {
   FakeCamera* right_camera = nullptr;
   CamerasConfig config;
   std::vector<std::string> log;
-  std::shared_ptr<CameraPair> pair;
+  std::shared_ptr<V4l2PairState> pair;
   std::unique_ptr<V4l2Camera> left, right;
 };
 

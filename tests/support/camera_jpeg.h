@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/image.h"
+#include "core/base/image.h"
 
 namespace stereod {
 
-/// A picture as a 4:2:2 colour JPEG. Its luma is about `value`, or a gradient if that is negative.
+/// A image as a 4:2:2 color JPEG. Its luma is about `value`, or a gradient if that is negative.
 std::vector<std::uint8_t> camera_jpeg(Size size, int value, int restart_rows = 0);
 
 /// The same file without its Huffman tables, as UVC cameras send it.

@@ -267,8 +267,8 @@ int FakeVideo::answer_buffers(Opened& opened, unsigned long request, void* argum
           filled.frame.bytesused.value_or(static_cast<std::uint32_t>(filled.frame.bytes.size()));
       buffer.sequence = filled.frame.sequence;
       buffer.flags = filled.frame.flags;
-      buffer.timestamp.tv_sec = static_cast<time_t>(filled.frame.stamp_ns / 1'000'000'000);
-      buffer.timestamp.tv_usec = static_cast<suseconds_t>(filled.frame.stamp_ns % 1'000'000'000 / 1000);
+      buffer.timestamp.tv_sec = static_cast<time_t>(filled.frame.timestamp_ns / 1'000'000'000);
+      buffer.timestamp.tv_usec = static_cast<suseconds_t>(filled.frame.timestamp_ns % 1'000'000'000 / 1000);
       return 0;
     }
     case VIDIOC_STREAMON:
@@ -361,7 +361,7 @@ void FakeVideo::deliver(Opened& opened) {
   if (silent || !camera.plugged || opened.gone || opened.queued.empty()) return;
   FakeFrame frame;
   frame.sequence = sequence;
-  frame.stamp_ns = at;
+  frame.timestamp_ns = at;
   frame.flags = camera.stamp_flags;
   const std::uint32_t index = opened.queued.front();
   const auto pixels = static_cast<std::size_t>(opened.format.size.width * opened.format.size.height);

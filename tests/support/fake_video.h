@@ -20,7 +20,7 @@ namespace stereod {
 /// What a fake camera delivers for one frame; a script may change it.
 struct FakeFrame {
   std::uint32_t sequence = 0;
-  std::int64_t stamp_ns = 0;
+  std::int64_t timestamp_ns = 0;
   std::uint32_t flags = 0;  ///< V4L2_BUF_FLAG_*
   std::vector<std::uint8_t> bytes;
   std::optional<std::uint32_t> bytesused;  ///< instead of the number of bytes

@@ -5,19 +5,19 @@
 #include <limits>
 #include <vector>
 
-#include "core/disparity.h"
-#include "core/obstacle_scan.h"
+#include "core/match/disparity.h"
+#include "core/perception/obstacle_scan.h"
 
 namespace stereod {
 
-/// An upright board that faces the camera, in metres over the ground: `forward` from the camera and `left` of
+/// An upright board that faces the camera, in meters over the ground: `forward` from the camera and `left` of
 /// it.
 struct Post {
   double forward, left, half_width, bottom, top;
 };
 
-inline ScanCamera floor_camera(Size size = {320, 240}) {
-  ScanCamera camera;
+inline ScanGeometry floor_camera(Size size = {320, 240}) {
+  ScanGeometry camera;
   camera.size = size;
   camera.fx = camera.fy = 0.8 * size.width;
   camera.cx = (size.width - 1) / 2.0;
@@ -29,7 +29,7 @@ inline ScanCamera floor_camera(Size size = {320, 240}) {
 }
 
 /// What the camera sees, rounded to units; kInvalidDisparity above the horizon and beyond the camera's range.
-inline DisparityImage floor_disparity(const ScanCamera& camera, const GroundPlane& ground,
+inline DisparityImage floor_disparity(const ScanGeometry& camera, const GroundPlane& ground,
                                       const std::vector<Post>& posts) {
   DisparityImage image(camera.size);
   const double sin = std::sin(ground.pitch_rad), cos = std::cos(ground.pitch_rad);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/match/isa.h"
+#include "core/base/cpu.h"
 
 namespace stereod {
 

@@ -36,7 +36,7 @@ inline disparity_rows_t rows_of(std::int64_t frame, int first_row, int count = k
   m.height = kHeight;
   m.first_row = first_row;
   m.row_count = count;
-  m.column_step = m.row_step = 1;
+  m.decimation_x = m.decimation_y = 1;
   m.disparities = 64;
   m.scale = 0.0625F;
   m.bytes_per_value = 2;
@@ -75,7 +75,7 @@ inline frame_t summary_of(std::int64_t frame) {
   m.height = kHeight;
   m.rows = kHeight;
   m.messages = kHeight / kRowsPerMessage;
-  m.valid_fraction = 0.5F;
+  m.measured_fraction = 0.5F;
   return m;
 }
 

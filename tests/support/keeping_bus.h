@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/publish/message_bus.h"
+#include "daemon/lcm/message_bus.h"
 #include "stereod/frame_t.hpp"
 
 namespace stereod {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "daemon/client/stereod_client.h"
-#include "daemon/publish/lcm_log.h"
+#include "daemon/lcm/log.h"
 
 namespace stereod {
 

@@ -17,12 +17,12 @@ constexpr int kGuardWidth = 3;
 /// The pixels of an image and not a byte more, one byte off alignment.
 class TightPicture {
  public:
-  explicit TightPicture(const GreyImage& image)
+  explicit TightPicture(const GrayImage& image)
       : size_(image.size()),
         bytes_(1 + static_cast<std::size_t>(size_.width) * static_cast<std::size_t>(size_.height)) {
     copy_pixels(image.view(), {bytes_.data() + 1, size_.width, size_.height, size_.width});
   }
-  GreyView view() const { return {bytes_.data() + 1, size_.width, size_.height, size_.width}; }
+  GrayView view() const { return {bytes_.data() + 1, size_.width, size_.height, size_.width}; }
 
  private:
   Size size_;
@@ -106,8 +106,9 @@ std::string describe(const MatcherOptions& o) {
        << " texture_threshold=" << o.texture_threshold << " uniqueness_ratio=" << o.uniqueness_ratio
        << " left_right_max_diff=" << o.left_right_max_diff << " median=" << o.median
        << " grid=" << name_of(o.grid) << " p1=" << o.p1 << " p2=" << o.p2
-       << " census_weight=" << o.census_weight << " gradient_limit=" << o.gradient_limit << " fill=" << o.fill
-       << " speckle_size=" << o.speckle_size << " speckle_max_diff=" << o.speckle_max_diff;
+       << " census_weight=" << o.census_weight << " gradient_limit=" << o.gradient_limit
+       << " fill=" << o.hole_filling << " speckle_size=" << o.speckle_size
+       << " speckle_max_diff=" << o.speckle_max_diff;
   return text.str();
 }
 

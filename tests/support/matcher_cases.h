@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/disparity.h"
-#include "core/match/matcher_options.h"
-#include "core/worker_pool.h"
+#include "core/base/worker_pool.h"
+#include "core/match/disparity.h"
+#include "core/match/options.h"
 #include "tests/support/random_images.h"
 #include "tests/support/sanitized.h"
 
@@ -30,7 +30,7 @@ WorkerPool& pool_of(int workers);
 testing::AssertionResult same_disparities(const DisparityImage& oracle, DisparityView matched);
 
 /// Matches `pair` with a matcher that has matched `before` already (unless that is empty) and compares with
-/// `oracle`. The pictures lie in memory without padding, at odd addresses, and the answer between guard
+/// `oracle`. The images lie in memory without padding, at odd addresses, and the answer between guard
 /// values, so a read or write outside them is found.
 testing::AssertionResult agrees(const DisparityImage& oracle, const StereoPair& pair,
                                 const StereoPair& before, const MatcherOptions& options, int workers);

@@ -126,7 +126,7 @@ bool fails_left_right(const SearchedRow& row, int x, const MatcherOptions& optio
 
 }  // namespace
 
-Image<int> oracle_prefilter(GreyView picture, const MatcherOptions& options) {
+Image<int> oracle_prefilter(GrayView picture, const MatcherOptions& options) {
   const int width = picture.width();
   const int height = picture.height();
   Image<int> result(width, height);
@@ -198,8 +198,8 @@ DisparityImage oracle_speckle(const DisparityImage& disparities, int speckle_siz
       visited.at(x, y) = 1;
       for (std::size_t i = 0; i < region.size(); ++i) {
         const auto [px, py] = region[i];
-        const Point neighbours[] = {{px, py - 1}, {px, py + 1}, {px - 1, py}, {px + 1, py}};
-        for (const auto& [qx, qy] : neighbours) {
+        const Point neighbors[] = {{px, py - 1}, {px, py + 1}, {px - 1, py}, {px + 1, py}};
+        for (const auto& [qx, qy] : neighbors) {
           if (qx < 0 || qx >= width || qy < 0 || qy >= height || visited.at(qx, qy)) continue;
           if (disparities.at(qx, qy) == kInvalidDisparity) continue;
           const int step =
@@ -216,7 +216,7 @@ DisparityImage oracle_speckle(const DisparityImage& disparities, int speckle_siz
   return result;
 }
 
-DisparityImage oracle_match(GreyView left_picture, GreyView right_picture, const MatcherOptions& options) {
+DisparityImage oracle_match(GrayView left_picture, GrayView right_picture, const MatcherOptions& options) {
   const Image<int> left = oracle_prefilter(left_picture, options);
   const Image<int> right = oracle_prefilter(right_picture, options);
   DisparityImage result(left.size());

@@ -2,17 +2,17 @@
 // with core/match but the struct of options. What it answers is what every implementation has to answer.
 #pragma once
 
-#include "core/disparity.h"
-#include "core/match/matcher_options.h"
+#include "core/match/disparity.h"
+#include "core/match/options.h"
 
 namespace stereod {
 
 /// All of docs/matcher.md. Takes time in proportion to pixels × disparities × window². `implementation` and
 /// `isa` make no difference; the options are not checked.
-DisparityImage oracle_match(GreyView left, GreyView right, const MatcherOptions& options);
+DisparityImage oracle_match(GrayView left, GrayView right, const MatcherOptions& options);
 
-/// Section 1: the picture that the search compares.
-Image<int> oracle_prefilter(GreyView picture, const MatcherOptions& options);
+/// Section 1: the image that the search compares.
+Image<int> oracle_prefilter(GrayView picture, const MatcherOptions& options);
 
 /// Section 5, one filter each; `disparities` is what the sections before it have made.
 DisparityImage oracle_median(const DisparityImage& disparities, int side);

@@ -8,20 +8,20 @@ namespace {
 
 /// Every pixel becomes pixel_of(x, y).
 template <typename PixelOf>
-GreyImage picture(Size size, PixelOf&& pixel_of) {
-  GreyImage image(size);
+GrayImage picture(Size size, PixelOf&& pixel_of) {
+  GrayImage image(size);
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) image.at(x, y) = static_cast<std::uint8_t>(pixel_of(x, y));
   }
   return image;
 }
 
-GreyImage noise(Size size, Random& random) {
+GrayImage noise(Size size, Random& random) {
   return picture(size, [&](int, int) { return random.between(0, 255); });
 }
 
 /// The mean over a (2·radius + 1)² square, cut at the border.
-GreyImage blurred(const GreyImage& image, int radius) {
+GrayImage blurred(const GrayImage& image, int radius) {
   return picture(image.size(), [&](int x, int y) {
     int sum = 0;
     int count = 0;
@@ -40,15 +40,15 @@ StereoPair slanted_pair(Size size, Random& random) {
   const int start = random.between(0, std::max(1, size.width / 3) * kUnits);
   const int slope_x = random.between(-8, 8);
   const int slope_y = random.between(-8, 8);
-  GreyImage right = blurred(noise(size, random), random.between(0, 1));
-  GreyImage left = picture(size, [&](int x, int y) {
+  GrayImage right = blurred(noise(size, random), random.between(0, 1));
+  GrayImage left = picture(size, [&](int x, int y) {
     const int source = x * kUnits - std::max(0, start + slope_x * x + slope_y * y);
     const int column = source >= 0 ? source / kUnits : -1;
     if (column < 0 || column + 1 >= size.width) return random.between(0, 255);
     const int fraction = source % kUnits;
-    const int grey =
+    const int gray =
         ((kUnits - fraction) * right.at(column, y) + fraction * right.at(column + 1, y)) / kUnits;
-    return std::clamp(grey + random.between(-2, 2), 0, 255);
+    return std::clamp(gray + random.between(-2, 2), 0, 255);
   });
   return {std::move(left), std::move(right)};
 }
@@ -60,12 +60,12 @@ StereoPair two_levels(Size size, Random& random) {
   const auto one = [&] {
     return picture(size, [&](int, int) { return random.one_in(rarity) ? high : low; });
   };
-  GreyImage left = one();
+  GrayImage left = one();
   return {std::move(left), one()};
 }
 
 StereoPair extremes(Size size, Random& random) {
-  const auto flat = [&](int grey) { return picture(size, [&](int, int) { return grey; }); };
+  const auto flat = [&](int gray) { return picture(size, [&](int, int) { return gray; }); };
   // Bars two columns wide have the largest gradient in every column; half a period apart, the largest cost.
   const auto bars = [&](int phase) {
     return picture(size, [&](int x, int) { return (x + phase) / 2 % 2 * 255; });
@@ -93,11 +93,11 @@ StereoPair extremes(Size size, Random& random) {
     case 4: {
       const int slope = random.between(1, 8);
       const int rarity = random.between(20, 400);
-      GreyImage left = ramp(0, slope, rarity);
+      GrayImage left = ramp(0, slope, rarity);
       return {std::move(left), ramp(255, -slope, rarity)};
     }
     default: {
-      GreyImage left = binary_noise();
+      GrayImage left = binary_noise();
       return {std::move(left), binary_noise()};
     }
   }
@@ -139,12 +139,12 @@ StereoPair random_pair(Content content, Size size, std::uint64_t seed) {
   Random random(seed);
   switch (content) {
     case Content::kNoise: {
-      GreyImage left = noise(size, random);
+      GrayImage left = noise(size, random);
       return {std::move(left), noise(size, random)};
     }
     case Content::kSmoothNoise: {
       const int radius = random.between(1, 3);
-      GreyImage left = blurred(noise(size, random), radius);
+      GrayImage left = blurred(noise(size, random), radius);
       return {std::move(left), blurred(noise(size, random), radius)};
     }
     case Content::kSlantedPair:

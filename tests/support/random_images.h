@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/image.h"
+#include "core/base/image.h"
 
 namespace stereod {
 
@@ -32,8 +32,8 @@ enum class Content {
   kNoise,        ///< every pixel for itself, left and right unrelated
   kSmoothNoise,  ///< blurred noise of low contrast, left and right unrelated: shallow minima
   kSlantedPair,  ///< a textured surface with a disparity that grows along x and y, with a little noise
-  kConstant,     ///< one grey value each: nothing but ties
-  kTwoLevels,    ///< two grey values a step apart: many ties
+  kConstant,     ///< one gray value each: nothing but ties
+  kTwoLevels,    ///< two gray values a step apart: many ties
   kExtremes,     ///< 0 and 255 in patterns that drive the sums to their maxima
 };
 inline constexpr std::array kAllContents = {Content::kNoise,    Content::kSmoothNoise, Content::kSlantedPair,
@@ -42,8 +42,8 @@ inline constexpr std::array kAllContents = {Content::kNoise,    Content::kSmooth
 std::string_view name_of(Content content);
 
 struct StereoPair {
-  GreyImage left;
-  GreyImage right;
+  GrayImage left;
+  GrayImage right;
 };
 
 /// A pair of this size, ≥ 1×1.

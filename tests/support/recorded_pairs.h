@@ -3,16 +3,16 @@
 
 #include <filesystem>
 
-#include "core/image.h"
+#include "core/base/image.h"
 
 namespace stereod {
 
-/// Writes `count` raw pairs of the synthetic scene as left_NN.png and right_NN.png into `folder`, and the
+/// Writes `count` raw pairs of the synthetic scene as left_NN.png and right_NN.png into `directory`, and the
 /// cameras' calibration as calibration.yaml.
-void write_recorded_pairs(const std::filesystem::path& folder, Size size, int count);
+void write_recorded_pairs(const std::filesystem::path& directory, Size size, int count);
 
 /// The names of pair `number`.
-std::filesystem::path recorded_left(const std::filesystem::path& folder, int number);
-std::filesystem::path recorded_right(const std::filesystem::path& folder, int number);
+std::filesystem::path recorded_left(const std::filesystem::path& directory, int number);
+std::filesystem::path recorded_right(const std::filesystem::path& directory, int number);
 
 }  // namespace stereod

@@ -1,11 +1,11 @@
 // The rendered scene as the daemon sees it.
 #pragma once
 
-#include "core/depth.h"
+#include "core/geometry/depth.h"
 #include "core/match/frame_matcher.h"
-#include "core/obstacle_scan.h"
-#include "core/rectify_map.h"
-#include "daemon/capture/synthetic_scene.h"
+#include "core/perception/obstacle_scan.h"
+#include "core/rectify/rectify_map.h"
+#include "daemon/capture/synthetic/synthetic_scene.h"
 
 namespace stereod {
 
@@ -42,10 +42,10 @@ class SceneMatcher {
     return disparity_;
   }
 
-  ScanCamera camera() const {
+  ScanGeometry camera() const {
     const Calibration& calibration = scene_.calibration();
     const RectifiedProjection& p = calibration.left.projection;
-    ScanCamera camera;
+    ScanGeometry camera;
     camera.size = scene_.size();
     camera.fx = p.fx, camera.fy = p.fy, camera.cx = p.cx, camera.cy = p.cy;
     camera.baseline_m = calibration.baseline_m;
@@ -57,9 +57,9 @@ class SceneMatcher {
   }
 
  private:
-  static SourceLayout layout(Size size) { return {size, GreyImage(size).view().stride(), 1}; }
-  static void rectify(const GreyImage& raw, const RectifyMap& map, GreyImage& out) {
-    for (int y = 0; y < out.height(); ++y) map.grey_row(raw.row(0), y, out.row(y));
+  static SourceLayout layout(Size size) { return {size, GrayImage(size).view().stride(), 1}; }
+  static void rectify(const GrayImage& raw, const RectifyMap& map, GrayImage& out) {
+    for (int y = 0; y < out.height(); ++y) map.gray_row(raw.row(0), y, out.row(y));
   }
 
   const SyntheticScene& scene_;
@@ -68,7 +68,7 @@ class SceneMatcher {
   RectifyMap left_map_, right_map_;
   ValidityMask left_mask_, right_mask_;
   FrameMatcher matcher_;
-  GreyImage left_, right_;
+  GrayImage left_, right_;
   DisparityImage disparity_;
 };
 

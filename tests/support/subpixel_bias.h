@@ -4,7 +4,7 @@
 #include <array>
 #include <functional>
 
-#include "core/disparity.h"
+#include "core/match/disparity.h"
 #include "tests/support/random_images.h"
 
 namespace stereod {
@@ -15,7 +15,7 @@ struct SubpixelSweep {
   int pixels = 4;   ///< how far the planes go on from there
   int margin = 24;  ///< columns and rows at every border that are not judged
   int textures = 2;
-  double noise = 0;  ///< standard deviation, grey levels, of its own in either picture
+  double noise = 0;  ///< standard deviation, gray levels, of its own in either image
 };
 
 struct SubpixelBias {

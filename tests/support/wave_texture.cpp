@@ -9,9 +9,9 @@ namespace stereod {
 namespace {
 
 constexpr int kWaves = 100;
-constexpr double kShortest = 3.3;  // px
-constexpr double kLongest = 50;
-constexpr double kContrast = 40;  // standard deviation, grey levels
+constexpr double kMin = 3.3;  // px
+constexpr double kMax = 50;
+constexpr double kContrast = 40;  // standard deviation, gray levels
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
 /// In [0, 1).
@@ -28,7 +28,7 @@ WaveTexture::WaveTexture(std::uint64_t seed) {
   Random random(seed);
   double power = 0;
   for (int i = 0; i < kWaves; ++i) {
-    const double wavelength = kShortest * std::pow(kLongest / kShortest, fraction(random));
+    const double wavelength = kMin * std::pow(kMax / kMin, fraction(random));
     const double direction = kTwoPi * fraction(random);
     Wave wave{};
     wave.cycles_x = std::cos(direction) / wavelength;
@@ -43,9 +43,9 @@ WaveTexture::WaveTexture(std::uint64_t seed) {
   for (Wave& wave : waves_) wave.amplitude *= kContrast / std::sqrt(power);
 }
 
-GreyImage WaveTexture::picture(Size size, double shift, double noise, std::uint64_t noise_seed) const {
+GrayImage WaveTexture::picture(Size size, double shift, double noise, std::uint64_t noise_seed) const {
   Random random(noise_seed);
-  GreyImage image(size);
+  GrayImage image(size);
   std::vector<double> row(static_cast<std::size_t>(size.width));
   for (int y = 0; y < size.height; ++y) {
     std::fill(row.begin(), row.end(), 128.0);
@@ -59,8 +59,8 @@ GreyImage WaveTexture::picture(Size size, double shift, double noise, std::uint6
       }
     }
     for (int x = 0; x < size.width; ++x) {
-      const double grey = row[static_cast<std::size_t>(x)] + (noise > 0 ? noise * normal(random) : 0);
-      image.at(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(grey), 0L, 255L));
+      const double gray = row[static_cast<std::size_t>(x)] + (noise > 0 ? noise * normal(random) : 0);
+      image.at(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(gray), 0L, 255L));
     }
   }
   return image;

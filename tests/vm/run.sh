@@ -58,7 +58,7 @@ boot() {
 }
 
 # Stops the process group of --pause while a scenario wants to be alone, and lets it go on.
-neighbour() {
+neighbor() {
   if [[ -n $pause && $(head_of "$2" alone) == yes ]]; then kill -"$1" -- -"$pause" 2>/dev/null || true; fi
 }
 
@@ -94,7 +94,7 @@ scenarios=()
 while [[ $# -gt 0 ]]; do
   case $1 in
     --cpu) cpu=${2:?--cpu wants a model} && shift ;;
-    --bin) bin=${2:?--bin wants a folder} built=yes && shift ;;
+    --bin) bin=${2:?--bin wants a directory} built=yes && shift ;;
     --package) package=$(realpath "${2:?--package wants a file}") && shift ;;
     --seed) seed=${2:?--seed wants a number} && shift ;;
     --pause) pause=${2:?--pause wants a process group} && shift ;;
@@ -146,9 +146,9 @@ run_all() {
   trap 'kill "$machine" 2>/dev/null || true; [[ -z $pause ]] || kill -CONT -- -"$pause" 2>/dev/null || true' EXIT
   failed=()
   for name in "${scenarios[@]}"; do
-    neighbour STOP "$name"
+    neighbor STOP "$name"
     judge "$name" || failed+=("$name")
-    neighbour CONT "$name"
+    neighbor CONT "$name"
   done
   wait "$machine" || true
   trap - EXIT

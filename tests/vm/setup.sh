@@ -2,7 +2,7 @@
 # Prepares, from Debian packages alone, what the tests in a virtual machine boot: Debian's kernel with the modules they
 # need, v4l2loopback built for it, and a root file system with systemd. All of it stays in a cache between runs:
 #
-#   setup.sh           prints the folder that has vmlinuz, initrd.gz and rootfs.ext4
+#   setup.sh           prints the directory that has vmlinuz, initrd.gz and rootfs.ext4
 #
 # Ends with status 3 and one sentence where it cannot be done: then the tests are skipped, not failed.
 set -euo pipefail

@@ -35,10 +35,10 @@ needed_by() { "$objdump" -p "$1" 2>/dev/null | sed -n 's/^ *NEEDED *//p'; }
 
 # Where the loader would find a library.
 path_of() {
-  local folder
-  for folder in "$sysroot"/lib/*-linux-gnu* "$sysroot"/usr/lib/*-linux-gnu* "$sysroot"/lib "$sysroot"/usr/lib; do
-    if [[ -e $folder/$1 ]]; then
-      echo "$folder/$1"
+  local directory
+  for directory in "$sysroot"/lib/*-linux-gnu* "$sysroot"/usr/lib/*-linux-gnu* "$sysroot"/lib "$sysroot"/usr/lib; do
+    if [[ -e $directory/$1 ]]; then
+      echo "$directory/$1"
       return
     fi
   done

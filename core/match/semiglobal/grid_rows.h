@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/match/semiglobal/kernel.h"
+#include "core/match/semiglobal/kernels/kernel.h"
 
 namespace stereod::semiglobal {
 
@@ -42,14 +42,14 @@ class GridRows {
   static void interpolate(const Shape& shape, const WinnerRow& winners, GridValue* out) {
     constexpr int kFar = 20'000;  // columns; no disparity is as large
     const int width = shape.grid_width();
-    const Values lanes = ascending() * static_cast<GridValue>(shape.column_step);
+    const Values lanes = ascending() * static_cast<GridValue>(shape.decimation_x);
     for (int x = 0; x < width; x += kColumns) {
       const Values k = load_bytes(winners.index + x);
       const Values least = load(winners.winners + x) >> 8 & GridValue{0xFF};
       const Values before = load_bytes(winners.sum_before + x);
       const Values after = load_bytes(winners.sum_after + x);
       const Values sixteenths = 16 * k + part(before - after, before + after - 2 * least);
-      const int column = x * shape.column_step - shape.min_disparity;
+      const int column = x * shape.decimation_x - shape.min_disparity;
       const auto first = static_cast<GridValue>(column < kFar ? column : kFar);
       const Values match = lanes + first - k;
       store(out + x, 2 * sixteenths | (match < Values{}));  // kNone: all bits
@@ -124,7 +124,7 @@ class GridRows {
       return judged < 0 ? Values{} + static_cast<GridValue>(kInvalidDisparity) : marked;
     };
     const Values lanes = ascending();
-    // Measured, but outside the right picture: that is no measurement. Further right it cannot be.
+    // Measured, but outside the right image: that is no measurement. Further right it cannot be.
     const int reach = what.min_disparity + what.disparities;
     int x = 0;
     for (; x < width && x < reach; x += kColumns) {
@@ -140,10 +140,10 @@ class GridRows {
     }
   }
 
-  static void step_limits(const std::uint8_t* grey, int width, int step, int p2, std::uint8_t* limits) {
+  static void step_limits(const std::uint8_t* gray, int width, int step, int p2, std::uint8_t* limits) {
     const auto most = static_cast<GridValue>(p2);
     for (int x = 0; x < width; x += kColumns) {
-      const Values change = points(grey, x, step) - points(grey, x - 1, step);
+      const Values change = points(gray, x, step) - points(gray, x - 1, step);
       const Values left_over = most - greater(change, -change);
       const Bytes bytes = __builtin_convertvector(greater(left_over, Values{}), Bytes);
       __builtin_memcpy(limits + x, &bytes, sizeof(bytes));
@@ -253,12 +253,12 @@ class GridRows {
     return pixels;
   }
 
-  static Pixels grey_step(Pixels a, Pixels b) { return (a < b ? b : a) - (a < b ? a : b); }
+  static Pixels gray_step(Pixels a, Pixels b) { return (a < b ? b : a) - (a < b ? a : b); }
 
   template <int kShift>
   static Pixels unlike(Pixels middle, Pixels first, Pixels second) {
-    const Pixels to_first = grey_step(middle, first);
-    const Pixels to_second = grey_step(middle, second);
+    const Pixels to_first = gray_step(middle, first);
+    const Pixels to_second = gray_step(middle, second);
     const Pixels none{};
     return (to_second < to_first ? none + (kNotFirst >> kShift) : none) |
            (to_first < to_second ? none + (kNotSecond >> kShift) : none);
@@ -275,9 +275,9 @@ class GridRows {
     return least < Values{} ? greater(a, b) : both;
   }
 
-  static Values points(const std::uint8_t* grey, int x, int step) {
-    if (step == 2) return load(grey + 2 * x) & 0xFF;
-    return load_bytes(grey + x);
+  static Values points(const std::uint8_t* gray, int x, int step) {
+    if (step == 2) return load(gray + 2 * x) & 0xFF;
+    return load_bytes(gray + x);
   }
 };
 

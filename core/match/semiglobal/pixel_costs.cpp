@@ -11,7 +11,7 @@ std::size_t size(int value) { return static_cast<std::size_t>(value); }
 constexpr int kNibbles = 16;
 constexpr int kNibbleShift = 4;  // of left nibbles, which are places of tables of 16 bytes
 
-// What stands in the planes beyond the picture: no comparison differs (tables give 0 for it), and the
+// What stands in the planes beyond the image: no comparison differs (tables give 0 for it), and the
 // gradient differs by at least as much as the greatest limit, 64, also where bytes go round: gradients are at
 // most 126.
 constexpr std::uint8_t kOutside[kPlanes] = {128, 128, 191};

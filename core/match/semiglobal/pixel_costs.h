@@ -1,16 +1,16 @@
-// From two rows of pictures to the costs of a row of the grid.
+// From two rows of images to the costs of a row of the grid.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-#include "core/aligned_buffer.h"
-#include "core/match/matcher_options.h"
-#include "core/match/semiglobal/kernel.h"
+#include "core/base/aligned_buffer.h"
+#include "core/match/options.h"
+#include "core/match/semiglobal/kernels/kernel.h"
 
 namespace stereod::semiglobal {
 
-/// A row of pixels with its neighbours, from two above it to two below, as Kernel::census_row wants them; the
+/// A row of pixels with its neighbors, from two above it to two below, as Kernel::census_row wants them; the
 /// rows above and below are also those that the gradient takes.
 struct PixelRows {
   const std::uint8_t* census[2 * kCensusReach + 1];

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/match/isa.h"
+#include "core/base/cpu.h"
 
 namespace stereod {
 namespace {
@@ -23,7 +23,7 @@ Shape shape_for(const MatcherOptions& options, int width, int lanes) {
   shape.disparities = options.disparities;
   shape.vectors = (options.disparities + lanes - 1) / lanes;
   shape.lanes = lanes;
-  shape.column_step = options.grid == Grid::kCoarse ? 2 : 1;
+  shape.decimation_x = options.grid == Grid::kCoarse ? 2 : 1;
   shape.gradient_limit = options.gradient_limit;
   shape.p1 = options.p1;
   return shape;
@@ -110,7 +110,7 @@ void SemiglobalMatcher::compare_row(int g) noexcept {
   pixel_costs_.write(pixel_rows(left_input_, y), pixel_rows(right_input_, y), cost_row(g));
   const auto left = [&](int v) { return left_row(std::min(v, image_.height - 1)); };
   kernel_.likeness_row(left(y), left(y + 1), left(y + 2), image_.width, likeness_.row(g));
-  kernel_.step_limits(left_row(y), shape_.grid_width(), shape_.column_step, options_.p2, limits_.row(g));
+  kernel_.step_limits(left_row(y), shape_.grid_width(), shape_.decimation_x, options_.p2, limits_.row(g));
 }
 
 // Of an odd number of rows the last one is done together with one that nobody asks for.
@@ -156,10 +156,10 @@ void SemiglobalMatcher::finish_grid_row(int g) noexcept {
     } else if (g == matched_.first) {
       return;  // only there for the median of the next one
     } else {
-      kernel_.median_row(raw_row(g - 1), raw_row(g), raw_row(g + 1), width, options_.fill, row);
+      kernel_.median_row(raw_row(g - 1), raw_row(g), raw_row(g + 1), width, options_.hole_filling, row);
     }
   }
-  if (options_.fill) semiglobal::fill_grid_row(row, width);
+  if (options_.hole_filling) semiglobal::fill_grid_row(row, width);
   write_grid_row(g, row);
 }
 
@@ -181,9 +181,9 @@ void SemiglobalMatcher::write_grid_row(int g, GridValue* row) noexcept {
 
 void SemiglobalMatcher::write_row(int y, const GridValue* row) noexcept {
   std::int16_t* const out = output_rows_.row(y) + kValues;
-  kernel_.disparities_of_row(row, image_.width,
-                             {options_.min_disparity, options_.disparities, options_.subpixel, options_.fill},
-                             out);
+  kernel_.disparities_of_row(
+      row, image_.width,
+      {options_.min_disparity, options_.disparities, options_.subpixel, options_.hole_filling}, out);
   mask_row(y, out);
   final_end_ = y + 1;
 }
@@ -194,7 +194,7 @@ void SemiglobalMatcher::mask_row(int y, std::int16_t* out) const noexcept {
     for (int x = 0; x < image_.width; ++x) {
       if (out[x] < 0) continue;
       const int whole = options_.subpixel ? (out[x] + kSubpixelUnits / 2) >> 4 : out[x];
-      if (valid[x - whole] == 0) out[x] = options_.fill ? as_filled(out[x]) : kInvalidDisparity;
+      if (valid[x - whole] == 0) out[x] = options_.hole_filling ? as_filled(out[x]) : kInvalidDisparity;
     }
   }
   if (left_mask_ != nullptr && !left_mask_->row_is_whole(y)) {

@@ -6,18 +6,18 @@
 
 #include "core/match/band_matcher.h"
 #include "core/match/row_ring.h"
-#include "core/match/semiglobal/grid_values.h"
-#include "core/match/semiglobal/kernel.h"
+#include "core/match/semiglobal/disparity_checks.h"
+#include "core/match/semiglobal/kernels/kernel.h"
 #include "core/match/semiglobal/pixel_costs.h"
-#include "core/match/semiglobal/winner_tests.h"
+#include "core/match/semiglobal/subsampled_disparity.h"
 
 namespace stereod {
 
 /// The matcher of docs/matcher.md, second part, by the kernel of an instruction set. Nothing goes down the
-/// picture but smoothing, median and the interpolation between rows of the grid, so rows are final about
+/// image but smoothing, median and the interpolation between rows of the grid, so rows are final about
 /// twelve after they came in:
 ///   input rows → (1) costs of grid rows → (2) paths and tests of two of them → (3) median and filling
-///   → (4) rows of the picture.
+///   → (4) rows of the image.
 class SemiglobalMatcher final : public BandMatcher {
  public:
   SemiglobalMatcher(const MatcherOptions& options, Size image);
@@ -58,7 +58,7 @@ class SemiglobalMatcher final : public BandMatcher {
   const semiglobal::Kernel& kernel_;
   semiglobal::Shape shape_;
   RowRange output_{};     // the band
-  RowRange matched_{};    // rows of the grid whose winners are needed, the median's neighbours included
+  RowRange matched_{};    // rows of the grid whose winners are needed, the median's neighbors included
   RowRange compared_{};   // rows of the grid whose costs are smoothed into those
   int compared_end_ = 0;  // the next row for stage (1)
   int matched_end_ = 0;   // the next row for stage (2)
@@ -67,12 +67,12 @@ class SemiglobalMatcher final : public BandMatcher {
   RowRing<std::uint8_t> left_input_, right_input_;
   semiglobal::PixelCosts pixel_costs_;
   RowRing<std::uint8_t> costs_;     // with a point's worth on either side
-  RowRing<std::uint8_t> limits_;    // P2 less the step in grey values from each point to the one at its left
+  RowRing<std::uint8_t> limits_;    // P2 less the step in gray values from each point to the one at its left
   RowRing<std::uint8_t> likeness_;  // of the pixels between the points, see Kernel::likeness_row
   AlignedBuffer<std::uint8_t> padding_;
   Image<std::uint8_t> smoothed_, sums_;  // of two rows
   Image<std::uint16_t> winners_;
-  semiglobal::WinnerTests tests_;
+  semiglobal::DisparityChecks tests_;
   RowRing<GridValue> raw_;   // rows of the grid, before and
   Image<GridValue> median_;  // after the median
   RowRing<GridValue> wide_;  // the last two of them with a value for every column

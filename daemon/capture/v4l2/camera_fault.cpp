@@ -13,7 +13,7 @@ std::string_view name_of(CameraState state) {
       return "opening";
     case CameraState::kStreaming:
       return "streaming";
-    case CameraState::kWedged:
+    case CameraState::kStalled:
       return "wedged";
     case CameraState::kLost:
       return "lost";
@@ -21,37 +21,37 @@ std::string_view name_of(CameraState state) {
   return "?";
 }
 
-std::string_view name_of(CameraStep step) {
+std::string_view name_of(SetupStage step) {
   switch (step) {
-    case CameraStep::kFind:
+    case SetupStage::kFind:
       return "finding it";
-    case CameraStep::kOpen:
+    case SetupStage::kOpen:
       return "opening it";
-    case CameraStep::kCapability:
+    case SetupStage::kCapability:
       return "asking what it is";
-    case CameraStep::kListFormats:
+    case SetupStage::kListFormats:
       return "listing its formats";
-    case CameraStep::kListSizes:
+    case SetupStage::kListSizes:
       return "listing its sizes";
-    case CameraStep::kSetFormat:
+    case SetupStage::kSetFormat:
       return "setting the format";
-    case CameraStep::kSetRate:
+    case SetupStage::kSetRate:
       return "setting the rate";
-    case CameraStep::kRequestBuffers:
+    case SetupStage::kRequestBuffers:
       return "asking for buffers";
-    case CameraStep::kMapBuffer:
+    case SetupStage::kMapBuffer:
       return "mapping a buffer";
-    case CameraStep::kQueue:
+    case SetupStage::kQueue:
       return "queueing a buffer";
-    case CameraStep::kStart:
+    case SetupStage::kStart:
       return "starting the stream";
-    case CameraStep::kWait:
+    case SetupStage::kWait:
       return "waiting for a frame";
-    case CameraStep::kDequeue:
+    case SetupStage::kDequeue:
       return "fetching a frame";
-    case CameraStep::kGiveBack:
+    case SetupStage::kGiveBack:
       return "giving a buffer back";
-    case CameraStep::kStop:
+    case SetupStage::kStop:
       return "stopping the stream";
   }
   return "?";
@@ -95,7 +95,7 @@ std::string_view name_of(CameraReason reason) {
   return "?";
 }
 
-CameraReason reason_of(CameraStep step, int error) {
+CameraReason reason_of(SetupStage step, int error) {
   switch (error) {
     case ENODEV:
     case ENXIO:
@@ -109,18 +109,18 @@ CameraReason reason_of(CameraStep step, int error) {
     case ENOMEM:
       return CameraReason::kNoMemory;
     case ENOSPC:  // usb_set_interface() and its kin, when the bus has no room left
-      return step >= CameraStep::kSetFormat ? CameraReason::kNoBandwidth : CameraReason::kDriverError;
+      return step >= SetupStage::kSetFormat ? CameraReason::kNoBandwidth : CameraReason::kDriverError;
     case ENOTTY:
-      return step == CameraStep::kCapability ? CameraReason::kNoCamera : CameraReason::kDriverError;
+      return step == SetupStage::kCapability ? CameraReason::kNoCamera : CameraReason::kDriverError;
     case EINVAL:
-      if (step == CameraStep::kCapability) return CameraReason::kNoCamera;
-      return step == CameraStep::kSetFormat ? CameraReason::kNoFormat : CameraReason::kDriverError;
+      if (step == SetupStage::kCapability) return CameraReason::kNoCamera;
+      return step == SetupStage::kSetFormat ? CameraReason::kNoFormat : CameraReason::kDriverError;
     default:
       return CameraReason::kDriverError;
   }
 }
 
-CameraFault fault_of(CameraStep step, int error, const std::string& device) {
+CameraFault fault_of(SetupStage step, int error, const std::string& device) {
   CameraFault fault{reason_of(step, error), step, error, ""};
   const std::string where = device + ": " + std::string(name_of(step)) + ": ";
   switch (fault.reason) {

@@ -29,7 +29,7 @@ bool is_link_name(const VideoNode& node, const std::string& name) {
 }
 
 CameraFault not_found(const std::string& sentence) {
-  return {CameraReason::kNotFound, CameraStep::kFind, 0, sentence};
+  return {CameraReason::kNotFound, SetupStage::kFind, 0, sentence};
 }
 
 std::optional<CameraFault> find_automatically(VideoSystem& system, Side side, std::string& node,
@@ -45,11 +45,11 @@ std::optional<CameraFault> find_automatically(VideoSystem& system, Side side, st
     if (error != 0) continue;
     if (std::none_of(cameras.begin(), cameras.end(), is_its)) cameras.push_back(candidate);
   }
-  if (cameras.size() < 2 && !refused.empty()) return fault_of(CameraStep::kOpen, EACCES, refused);
+  if (cameras.size() < 2 && !refused.empty()) return fault_of(SetupStage::kOpen, EACCES, refused);
   if (cameras.size() < 2) {
     const std::string found = cameras.empty() ? "none is" : "only " + cameras[0].node + " is";
     return CameraFault{
-        CameraReason::kAmbiguous, CameraStep::kFind, 0,
+        CameraReason::kAmbiguous, SetupStage::kFind, 0,
         "device auto needs two cameras, and " + found + " plugged in; plug them in or name the devices"};
   }
   const VideoNode& chosen = cameras[side == Side::kLeft ? 0 : 1];
@@ -75,7 +75,7 @@ std::optional<CameraFault> find_camera(VideoSystem& system, Side side, const std
         serial ? candidate.serial == name.substr(kSerial.size()) : is_link_name(candidate, name);
     if (!named) continue;
     const int error = serial ? gives_pictures(system, candidate) : 0;
-    if (is_refusal(error)) return fault_of(CameraStep::kOpen, error, candidate.node);
+    if (is_refusal(error)) return fault_of(SetupStage::kOpen, error, candidate.node);
     if (error != 0) continue;
     node = candidate.node;
     return std::nullopt;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/pairing.h"
+#include "core/sync/pairing.h"
 #include "daemon/capture/v4l2/camera_fault.h"
 #include "daemon/capture/v4l2/video_system.h"
 

@@ -7,7 +7,7 @@
 namespace stereod {
 namespace {
 
-// Numbers of buffers that a lease carries: the driver's from 0 on, then the decoded pictures.
+// Numbers of buffers that a lease carries: the driver's from 0 on, then the decoded images.
 constexpr int kFirstPicture = 1000;
 
 std::string in_words(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
@@ -20,16 +20,16 @@ std::string rate_in_words(double fps) {
 
 }  // namespace
 
-std::string describe(const StreamFacts& facts) {
-  if (facts.pixels == nullptr) return {};
-  const std::string how = facts.converted ? " (converted by libv4l2)" : "";
-  return fourcc_name(facts.format.pixels) + " " + in_words(facts.format.size) + " at " +
-         rate_in_words(facts.fps) + how;
+std::string describe(const StreamInfo& info) {
+  if (info.pixels == nullptr) return {};
+  const std::string how = info.converted ? " (converted by libv4l2)" : "";
+  return fourcc_name(info.format.pixels) + " " + in_words(info.format.size) + " at " +
+         rate_in_words(info.fps) + how;
 }
 
 CameraStream::CameraStream(VideoSystem& system, Size size) : system_(system), device_(system) {
-  for (int i = 0; i < kPictures; ++i) pictures_.emplace_back(size);
-  picture_on_loan_.resize(kPictures);
+  for (int i = 0; i < kImages; ++i) pictures_.emplace_back(size);
+  image_on_loan_.resize(kImages);
 }
 
 CameraStream::~CameraStream() {
@@ -45,51 +45,52 @@ std::optional<CameraFault> CameraStream::open(const StreamOptions& options) {
 
 std::optional<CameraFault> CameraStream::set_up(const StreamOptions& options) {
   const std::string& node = options.node;
-  facts_ = {};
-  if (const int error = device_.open(node, false)) return fault_of(CameraStep::kOpen, error, node);
-  if (const int error = device_.capability(facts_.device))
-    return fault_of(CameraStep::kCapability, error, node);
-  if (!facts_.device.captures || !facts_.device.streams) {
-    return CameraFault{CameraReason::kNoCamera, CameraStep::kCapability, 0,
+  info_ = {};
+  if (const int error = device_.open(node, false)) return fault_of(SetupStage::kOpen, error, node);
+  if (const int error = device_.capability(info_.device))
+    return fault_of(SetupStage::kCapability, error, node);
+  if (!info_.device.captures || !info_.device.streams) {
+    return CameraFault{CameraReason::kNoCamera, SetupStage::kCapability, 0,
                        node +
-                           " gives no pictures; a camera's other node holds its metadata only. "
+                           " gives no images; a camera's other node holds its metadata only. "
                            "'stereod --list-cameras' shows the right one"};
   }
   FormatRequest request;
   if (auto fault = choose(options, request)) return fault;
   if (request.convert) {
-    if (const int error = device_.open(node, true)) return fault_of(CameraStep::kOpen, error, node);
+    if (const int error = device_.open(node, true)) return fault_of(SetupStage::kOpen, error, node);
   }
   if (auto fault = agree_on_format(options, request)) return fault;
   double got = 0;
   if (const int error = device_.set_rate(request.fps, got))
-    return fault_of(CameraStep::kSetRate, error, node);
-  if (got > 0) facts_.fps = got;
+    return fault_of(SetupStage::kSetRate, error, node);
+  if (got > 0) info_.fps = got;
   return map_buffers(node);
 }
 
 std::optional<CameraFault> CameraStream::choose(const StreamOptions& options, FormatRequest& request) {
   std::vector<std::uint32_t> formats;
   if (const int error = device_.formats(formats))
-    return fault_of(CameraStep::kListFormats, error, options.node);
+    return fault_of(SetupStage::kListFormats, error, options.node);
   std::vector<OfferedFormat> offers;
   for (const std::uint32_t pixels : formats) {
     bool offered = false;
     if (const int error = device_.offers_size(pixels, options.size, offered))
-      return fault_of(CameraStep::kListSizes, error, options.node);
+      return fault_of(SetupStage::kListSizes, error, options.node);
     if (!offered) continue;
     offers.push_back({pixels, device_.rates(pixels, options.size)});
   }
   const std::vector<FormatRequest> ladder = format_ladder(offers, options.format, options.fps);
   if (ladder.empty()) return no_format(options, offers);
-  facts_.ladder_steps = static_cast<int>(ladder.size());
-  request = ladder[static_cast<std::size_t>(std::clamp(options.ladder_step, 0, facts_.ladder_steps - 1))];
+  info_.fallback_levels = static_cast<int>(ladder.size());
+  request =
+      ladder[static_cast<std::size_t>(std::clamp(options.fallback_level, 0, info_.fallback_levels - 1))];
   return std::nullopt;
 }
 
 CameraFault CameraStream::no_format(const StreamOptions& options,
                                     const std::vector<OfferedFormat>& offers) const {
-  std::string sentence = options.node + " (" + facts_.device.card + ") has no " + in_words(options.size) +
+  std::string sentence = options.node + " (" + info_.device.card + ") has no " + in_words(options.size) +
                          (options.format == "auto" ? "" : " as " + options.format) + "; ";
   if (offers.empty()) {
     sentence += "'stereod --list-cameras' shows the sizes it has";
@@ -101,38 +102,38 @@ CameraFault CameraStream::no_format(const StreamOptions& options,
                   (format != nullptr ? std::string(format->name) : fourcc_name(offers[i].pixels));
     }
   }
-  return {CameraReason::kNoFormat, CameraStep::kListSizes, 0, std::move(sentence)};
+  return {CameraReason::kNoFormat, SetupStage::kListSizes, 0, std::move(sentence)};
 }
 
 std::optional<CameraFault> CameraStream::agree_on_format(const StreamOptions& options,
                                                          const FormatRequest& request) {
   // What is asked for, should the answer be that the bus is full.
-  facts_.format = {request.pixels, options.size, 0, 0};
-  facts_.pixels = find_pixel_format(request.pixels);
-  facts_.fps = request.fps;
-  facts_.converted = request.convert;
-  if (const int error = device_.set_format(facts_.format))
-    return fault_of(CameraStep::kSetFormat, error, options.node);
-  if (facts_.format.pixels == request.pixels && facts_.format.size == options.size) return std::nullopt;
-  return CameraFault{CameraReason::kOtherFormat, CameraStep::kSetFormat, 0,
+  info_.format = {request.pixels, options.size, 0, 0};
+  info_.pixels = find_pixel_format(request.pixels);
+  info_.fps = request.fps;
+  info_.converted = request.convert;
+  if (const int error = device_.set_format(info_.format))
+    return fault_of(SetupStage::kSetFormat, error, options.node);
+  if (info_.format.pixels == request.pixels && info_.format.size == options.size) return std::nullopt;
+  return CameraFault{CameraReason::kOtherFormat, SetupStage::kSetFormat, 0,
                      options.node + " was asked for " + fourcc_name(request.pixels) + " " +
-                         in_words(options.size) + " and gives " + fourcc_name(facts_.format.pixels) + " " +
-                         in_words(facts_.format.size) + "; set cameras.v4l2 to what it gives"};
+                         in_words(options.size) + " and gives " + fourcc_name(info_.format.pixels) + " " +
+                         in_words(info_.format.size) + "; set cameras.v4l2 to what it gives"};
 }
 
 std::optional<CameraFault> CameraStream::map_buffers(const std::string& node) {
   std::uint32_t count = kDriverBuffers;
   if (const int error = device_.request_buffers(count))
-    return fault_of(CameraStep::kRequestBuffers, error, node);
-  if (count < 2) return fault_of(CameraStep::kRequestBuffers, ENOMEM, node);
+    return fault_of(SetupStage::kRequestBuffers, error, node);
+  if (count < 2) return fault_of(SetupStage::kRequestBuffers, ENOMEM, node);
   for (std::uint32_t i = 0; i < std::min(count, 32u); ++i) {
     std::span<const std::uint8_t> memory;
-    if (const int error = device_.map_buffer(i, memory)) return fault_of(CameraStep::kMapBuffer, error, node);
+    if (const int error = device_.map_buffer(i, memory)) return fault_of(SetupStage::kMapBuffer, error, node);
     buffers_.push_back(memory);
-    if (memory.size() >= least_bytes(*facts_.pixels, facts_.format)) continue;
-    return CameraFault{CameraReason::kOtherFormat, CameraStep::kMapBuffer, 0,
+    if (memory.size() >= least_bytes(*info_.pixels, info_.format)) continue;
+    return CameraFault{CameraReason::kOtherFormat, SetupStage::kMapBuffer, 0,
                        node + ": its buffers of " + std::to_string(memory.size()) +
-                           " bytes are too small for " + describe(facts_)};
+                           " bytes are too small for " + describe(info_)};
   }
   const std::lock_guard lock(mutex_);
   buffer_on_loan_.assign(buffers_.size(), false);
@@ -141,26 +142,26 @@ std::optional<CameraFault> CameraStream::map_buffers(const std::string& node) {
 }
 
 std::optional<CameraFault> CameraStream::start(std::int64_t exposure_ns) {
-  const std::string& name = facts_.device.card;
+  const std::string& name = info_.device.card;
   buffers_seen_ = 0;
-  stamps_.begin(facts_.fps > 0 ? static_cast<std::int64_t>(1e9 / facts_.fps) : 0, exposure_ns);
+  timestamps_.begin(info_.fps > 0 ? static_cast<std::int64_t>(1e9 / info_.fps) : 0, exposure_ns);
   {
     const std::lock_guard lock(mutex_);
     for (std::uint32_t i = 0; i < buffers_.size(); ++i) {
       if (buffer_on_loan_[i]) continue;  // queued when it is given back
-      if (const int error = device_.queue(i)) return fault_of(CameraStep::kQueue, error, name);
+      if (const int error = device_.queue(i)) return fault_of(SetupStage::kQueue, error, name);
     }
     flowing_ = true;
   }
   // A camera may take a second to start; nobody who gives a buffer back waits for that.
   if (const int error = device_.stream_on()) {
     stop();
-    return fault_of(CameraStep::kStart, error, name);
+    return fault_of(SetupStage::kStart, error, name);
   }
   return std::nullopt;
 }
 
-FrameLease CameraStream::newest(int& error, CameraStep& step) noexcept {
+FrameLease CameraStream::newest(int& error, SetupStage& step) noexcept {
   error = 0;
   FilledBuffer buffer;
   std::int64_t start_ns = 0;
@@ -168,20 +169,20 @@ FrameLease CameraStream::newest(int& error, CameraStep& step) noexcept {
   Frame frame;
   frame.captured_ns = start_ns;
   frame.sequence = buffer.sequence;
-  if (facts_.pixels->work == LumaWork::kNone) return lend_in_place(buffer, frame);
-  step = CameraStep::kQueue;
-  return lend_picture(buffer, frame, error);
+  if (info_.pixels->work == LumaWork::kNone) return lend_in_place(buffer, frame);
+  step = SetupStage::kQueue;
+  return lend_image(buffer, frame, error);
 }
 
-// Empties the driver's queue and keeps the newest buffer that may be a picture; the others go back.
+// Empties the driver's queue and keeps the newest buffer that may be a image; the others go back.
 bool CameraStream::dequeue_newest(FilledBuffer& newest, std::int64_t& start_ns, int& error,
-                                  CameraStep& step) noexcept {
-  const std::size_t least = least_bytes(*facts_.pixels, facts_.format);
+                                  SetupStage& step) noexcept {
+  const std::size_t least = least_bytes(*info_.pixels, info_.format);
   bool have = false;
   // A driver that always has one more must not keep this thread here.
   for (std::size_t i = 0; i < 2 * buffers_.size(); ++i) {
     FilledBuffer buffer;
-    step = CameraStep::kDequeue;
+    step = SetupStage::kDequeue;
     error = device_.dequeue(buffer);
     if (error == EAGAIN) {
       error = 0;
@@ -194,8 +195,8 @@ bool CameraStream::dequeue_newest(FilledBuffer& newest, std::int64_t& start_ns, 
     FrameDrop drop{};
     std::int64_t this_start_ns = 0;
     const bool good = is_complete(buffer, buffers_[buffer.index].size(), least, drop) &&
-                      stamps_.start_of_exposure(buffer, system_.now_ns(), this_start_ns, drop);
-    step = CameraStep::kQueue;
+                      timestamps_.start_of_exposure(buffer, system_.now_ns(), this_start_ns, drop);
+    step = SetupStage::kQueue;
     if (!good) {
       count(drop);
       requeue(buffer.index, error);
@@ -213,7 +214,7 @@ bool CameraStream::dequeue_newest(FilledBuffer& newest, std::int64_t& start_ns, 
   const std::lock_guard lock(mutex_);
   if (error == 0 && give_back_error_ != 0) {
     error = give_back_error_;
-    step = CameraStep::kGiveBack;
+    step = SetupStage::kGiveBack;
   }
   return have && error == 0;
 }
@@ -226,23 +227,23 @@ void CameraStream::count_missed(std::uint32_t sequence) noexcept {
 }
 
 FrameLease CameraStream::lend_in_place(const FilledBuffer& buffer, Frame frame) noexcept {
-  frame.luma = luma_in_place(*facts_.pixels, facts_.format, buffers_[buffer.index].data());
+  frame.luma = luma_in_place(*info_.pixels, info_.format, buffers_[buffer.index].data());
   const std::lock_guard lock(mutex_);
   buffer_on_loan_[buffer.index] = true;
   return {frame, *this, static_cast<int>(buffer.index)};
 }
 
-FrameLease CameraStream::lend_picture(const FilledBuffer& buffer, Frame frame, int& error) noexcept {
-  const int place = free_picture();
+FrameLease CameraStream::lend_image(const FilledBuffer& buffer, Frame frame, int& error) noexcept {
+  const int place = free_image();
   FrameDrop drop = FrameDrop::kNoRoom;
   bool good = place >= 0;
   if (good) {
-    GreyImage& picture = pictures_[static_cast<std::size_t>(place)];
+    GrayImage& picture = pictures_[static_cast<std::size_t>(place)];
     const std::span<const std::uint8_t> bytes = buffers_[buffer.index].first(buffer.bytes);
-    if (facts_.pixels->work == LumaWork::kJpeg) {
+    if (info_.pixels->work == LumaWork::kJpeg) {
       good = jpeg_.decode(bytes, picture.view(), drop);
     } else {
-      scale_y10(bytes.data(), row_stride(*facts_.pixels, facts_.format), picture.view());
+      scale_y10(bytes.data(), row_stride(*info_.pixels, info_.format), picture.view());
     }
     frame.luma = {picture.row(0), picture.size(), picture.view().stride(), 1};
   }
@@ -250,14 +251,14 @@ FrameLease CameraStream::lend_picture(const FilledBuffer& buffer, Frame frame, i
   requeue(buffer.index, error);
   if (!good) return {};
   const std::lock_guard lock(mutex_);
-  picture_on_loan_[static_cast<std::size_t>(place)] = true;
+  image_on_loan_[static_cast<std::size_t>(place)] = true;
   return {frame, *this, kFirstPicture + place};
 }
 
-int CameraStream::free_picture() noexcept {
+int CameraStream::free_image() noexcept {
   const std::lock_guard lock(mutex_);
-  for (int i = 0; i < kPictures; ++i) {
-    if (!picture_on_loan_[static_cast<std::size_t>(i)]) return i;
+  for (int i = 0; i < kImages; ++i) {
+    if (!image_on_loan_[static_cast<std::size_t>(i)]) return i;
   }
   return -1;
 }
@@ -269,7 +270,7 @@ void CameraStream::requeue(std::uint32_t index, int& error) noexcept {
 void CameraStream::give_back(int buffer) noexcept {
   const std::lock_guard lock(mutex_);
   if (buffer >= kFirstPicture) {
-    picture_on_loan_[static_cast<std::size_t>(buffer - kFirstPicture)] = false;
+    image_on_loan_[static_cast<std::size_t>(buffer - kFirstPicture)] = false;
     return;
   }
   buffer_on_loan_[static_cast<std::size_t>(buffer)] = false;

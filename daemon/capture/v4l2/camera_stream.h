@@ -11,7 +11,7 @@
 
 #include "daemon/capture/frame_source.h"
 #include "daemon/capture/v4l2/camera_fault.h"
-#include "daemon/capture/v4l2/format_choice.h"
+#include "daemon/capture/v4l2/format_fallbacks.h"
 #include "daemon/capture/v4l2/frame_check.h"
 #include "daemon/capture/v4l2/luma_decoder.h"
 #include "daemon/capture/v4l2/video_device.h"
@@ -24,20 +24,20 @@ struct StreamOptions {
   Size size;         ///< of the frames
   double fps = 30;
   std::string format = "auto";
-  int ladder_step = 0;  ///< how far down the ladder of formats; past its end: the last one
+  int fallback_level = 0;  ///< how far down the ladder of formats; past its end: the last one
 };
 
 /// What came of it.
-struct StreamFacts {
+struct StreamInfo {
   DeviceCapability device;
   DeviceFormat format;
   const PixelFormat* pixels = nullptr;
-  bool converted = false;  ///< by libv4l2
-  double fps = 0;          ///< as the driver says, else as asked
-  int ladder_steps = 0;    ///< how many steps the ladder of formats has
+  bool converted = false;   ///< by libv4l2
+  double fps = 0;           ///< as the driver says, else as asked
+  int fallback_levels = 0;  ///< how many steps the ladder of formats has
 };
 /// "MJPEG 640×480 at 30/s", for people.
-std::string describe(const StreamFacts& facts);
+std::string describe(const StreamInfo& info);
 
 /// Life: open() sets the camera up, start() lets frames flow, newest() fetches them, stop() ends the flow,
 /// and close() gives everything back, for which no frame may be on loan (on_loan()). Frames on loan after
@@ -59,13 +59,13 @@ class CameraStream final : public BufferOwner {
   int descriptor() const noexcept { return device_.descriptor(); }
   /// The newest frame that is ready and whole; an empty lease if there is none. An errno value in `error` if
   /// the driver failed, from here or from a buffer given back.
-  FrameLease newest(int& error, CameraStep& step) noexcept;
+  FrameLease newest(int& error, SetupStage& step) noexcept;
   void stop() noexcept;
   bool on_loan() noexcept;
   void close() noexcept;
 
   VideoDevice& device() noexcept { return device_; }
-  const StreamFacts& facts() const { return facts_; }
+  const StreamInfo& info() const { return info_; }
   DropCounts drops() const noexcept;
   /// What was wrong with the last frame that was damaged. The camera's own thread.
   FrameDrop last_damage() const noexcept { return last_damage_; }
@@ -79,28 +79,28 @@ class CameraStream final : public BufferOwner {
  private:
   // What the pipeline may hold of one camera (waiting, in a pair, being matched), and as many for the driver.
   static constexpr std::uint32_t kDriverBuffers = 6;
-  static constexpr int kPictures = 5;
+  static constexpr int kImages = 5;
 
   std::optional<CameraFault> set_up(const StreamOptions& options);
   std::optional<CameraFault> choose(const StreamOptions& options, FormatRequest& request);
   std::optional<CameraFault> agree_on_format(const StreamOptions& options, const FormatRequest& request);
   std::optional<CameraFault> map_buffers(const std::string& node);
   CameraFault no_format(const StreamOptions& options, const std::vector<OfferedFormat>& offers) const;
-  bool dequeue_newest(FilledBuffer& newest, std::int64_t& start_ns, int& error, CameraStep& step) noexcept;
+  bool dequeue_newest(FilledBuffer& newest, std::int64_t& start_ns, int& error, SetupStage& step) noexcept;
   FrameLease lend_in_place(const FilledBuffer& buffer, Frame frame) noexcept;
-  FrameLease lend_picture(const FilledBuffer& buffer, Frame frame, int& error) noexcept;
-  int free_picture() noexcept;
+  FrameLease lend_image(const FilledBuffer& buffer, Frame frame, int& error) noexcept;
+  int free_image() noexcept;
   void requeue(std::uint32_t index, int& error) noexcept;
   void count_missed(std::uint32_t sequence) noexcept;
   void count(FrameDrop drop) noexcept;
 
   VideoSystem& system_;
   VideoDevice device_;
-  StreamFacts facts_;
+  StreamInfo info_;
   std::vector<std::span<const std::uint8_t>> buffers_;
   JpegLumaDecoder jpeg_;
-  std::vector<GreyImage> pictures_;  // decoded or scaled ones
-  StampKeeper stamps_;
+  std::vector<GrayImage> pictures_;  // decoded or scaled ones
+  TimestampFilter timestamps_;
   std::int64_t buffers_seen_ = 0;
   FrameDrop last_damage_{};
   std::uint32_t next_sequence_ = 0;
@@ -109,7 +109,7 @@ class CameraStream final : public BufferOwner {
   mutable std::mutex mutex_;  // guards what follows
   bool flowing_ = false;
   std::vector<bool> buffer_on_loan_;
-  std::vector<bool> picture_on_loan_;
+  std::vector<bool> image_on_loan_;
   int give_back_error_ = 0;
   DropCounts drops_;
 };

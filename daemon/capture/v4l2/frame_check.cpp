@@ -26,12 +26,12 @@ std::string_view name_of(FrameDrop drop) {
       return "a damaged JPEG";
     case FrameDrop::kStale:
       return "stamped far from now";
-    case FrameDrop::kStampBackwards:
+    case FrameDrop::kTimestampBackwards:
       return "stamped before the last";
     case FrameDrop::kSuperseded:
       return "superseded by a newer one";
     case FrameDrop::kNoRoom:
-      return "not needed: all pictures are on loan";
+      return "not needed: all images are on loan";
   }
   return "?";
 }
@@ -49,24 +49,24 @@ bool is_complete(const FilledBuffer& buffer, std::size_t mapped, std::size_t lea
   return false;
 }
 
-void StampKeeper::begin(std::int64_t frame_ns, std::int64_t exposure_ns) noexcept {
+void TimestampFilter::begin(std::int64_t frame_ns, std::int64_t exposure_ns) noexcept {
   frame_ns_ = frame_ns;
   exposure_ns_ = exposure_ns;
   last_ns_ = std::numeric_limits<std::int64_t>::min();
   backwards_ = 0;
 }
 
-bool StampKeeper::start_of_exposure(const FilledBuffer& buffer, std::int64_t now_ns, std::int64_t& start_ns,
-                                    FrameDrop& drop) noexcept {
-  const bool near = buffer.stamp_ns >= now_ns - kOldest && buffer.stamp_ns <= now_ns + kFuture;
-  if (!near && buffer.stamp_monotonic) {
+bool TimestampFilter::start_of_exposure(const FilledBuffer& buffer, std::int64_t now_ns,
+                                        std::int64_t& start_ns, FrameDrop& drop) noexcept {
+  const bool near = buffer.timestamp_ns >= now_ns - kOldest && buffer.timestamp_ns <= now_ns + kFuture;
+  if (!near && buffer.timestamp_monotonic) {
     drop = FrameDrop::kStale;
     return false;
   }
-  start_ns = near ? buffer.stamp_ns : now_ns;
-  if (!near || !buffer.stamp_start) start_ns -= frame_ns_ + exposure_ns_;
-  if (start_ns < last_ns_ && ++backwards_ < kMostBackwards) {
-    drop = FrameDrop::kStampBackwards;
+  start_ns = near ? buffer.timestamp_ns : now_ns;
+  if (!near || !buffer.timestamp_start) start_ns -= frame_ns_ + exposure_ns_;
+  if (start_ns < last_ns_ && ++backwards_ < kMaxBackwards) {
+    drop = FrameDrop::kTimestampBackwards;
     return false;
   }
   backwards_ = 0;

@@ -1,4 +1,4 @@
-// Which buffers are pictures.
+// Which buffers are images.
 #pragma once
 
 #include <array>
@@ -12,16 +12,16 @@ namespace stereod {
 
 /// Why a buffer of the driver did not become a frame.
 enum class FrameDrop {
-  kDriverError,     ///< the driver marked it as damaged
-  kEmpty,           ///< nothing in it
-  kShort,           ///< fewer bytes than the picture needs
-  kNoJpeg,          ///< does not begin like a JPEG
-  kJpegSize,        ///< a JPEG of another size than agreed
-  kJpegDamaged,     ///< truncated, or rubbish inside
-  kStale,           ///< its stamp is far from now
-  kStampBackwards,  ///< stamped earlier than the frame before it
-  kSuperseded,      ///< a newer frame was there already
-  kNoRoom,          ///< every decoded picture is still on loan
+  kDriverError,         ///< the driver marked it as damaged
+  kEmpty,               ///< nothing in it
+  kShort,               ///< fewer bytes than the image needs
+  kNoJpeg,              ///< does not begin like a JPEG
+  kJpegSize,            ///< a JPEG of another size than agreed
+  kJpegDamaged,         ///< truncated, or rubbish inside
+  kStale,               ///< its stamp is far from now
+  kTimestampBackwards,  ///< stamped earlier than the frame before it
+  kSuperseded,          ///< a newer frame was there already
+  kNoRoom,              ///< every decoded image is still on loan
 };
 inline constexpr std::size_t kFrameDrops = 10;
 std::string_view name_of(FrameDrop drop);
@@ -38,12 +38,12 @@ struct DropCounts {
 };
 
 /// Judges a buffer by what the driver says of it, before its bytes are looked at. `mapped`: the buffer's
-/// length. True if it may be a picture; else `drop` says why not.
+/// length. True if it may be a image; else `drop` says why not.
 bool is_complete(const FilledBuffer& buffer, std::size_t mapped, std::size_t least, FrameDrop& drop);
 
 /// Turns the drivers' stamps into the start of exposure on CLOCK_MONOTONIC, and refuses stamps that cannot
 /// be.
-class StampKeeper {
+class TimestampFilter {
  public:
   /// `frame_ns`: the time of one frame. `exposure_ns`: 0 if the camera does not say.
   void begin(std::int64_t frame_ns, std::int64_t exposure_ns) noexcept;
@@ -56,7 +56,7 @@ class StampKeeper {
 
  private:
   // A clock that was set back for good must not stop a camera for good.
-  static constexpr int kMostBackwards = 5;
+  static constexpr int kMaxBackwards = 5;
 
   std::int64_t frame_ns_ = 0;
   std::int64_t exposure_ns_ = 0;

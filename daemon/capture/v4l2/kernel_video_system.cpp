@@ -67,10 +67,10 @@ class KernelWaiter final : public Waiter {
   }
 
  private:
-  // The folders below /dev/v4l come and go with the cameras. Watching one again changes nothing.
+  // The directories below /dev/v4l come and go with the cameras. Watching one again changes nothing.
   void watch() noexcept {
-    for (const char* folder : kWatchedFolders) {
-      inotify_add_watch(inotify_, folder, IN_CREATE | IN_DELETE | IN_MOVED_TO | IN_ATTRIB | IN_ONLYDIR);
+    for (const char* directory : kWatchedFolders) {
+      inotify_add_watch(inotify_, directory, IN_CREATE | IN_DELETE | IN_MOVED_TO | IN_ATTRIB | IN_ONLYDIR);
     }
   }
 
@@ -133,8 +133,8 @@ class KernelVideoSystem final : public VideoSystem {
           fs::canonical("/sys/class/video4linux/" + entry.path().filename().string() + "/device", error);
       if (!error) node.serial = first_line(interface.parent_path() / "serial");
     }
-    for (const char* folder : kLinkFolders) {
-      for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    for (const char* directory : kLinkFolders) {
+      for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
         const auto node = found.find(node_number(fs::path(resolve(entry.path())).filename()));
         if (node != found.end()) node->second.links.push_back(entry.path());
       }

@@ -38,15 +38,15 @@ JpegLumaDecoder::Libjpeg& self(j_common_ptr info) {
 [[noreturn]] void leave(j_common_ptr info) { std::longjmp(self(info).failed, 1); }
 
 // More than this left over at a marker is not padding: something was put in, and what was decoded is wrong.
-constexpr int kFewBytes = 100;
+constexpr int kMinBytes = 100;
 
-// What libjpeg warns of though the picture is whole. Some webcams put a few bytes too many before the end of
-// a picture, or before a restart marker in it: all that was wanted had been decoded by then, for data that
+// What libjpeg warns of though the image is whole. Some webcams put a few bytes too many before the end of
+// a image, or before a restart marker in it: all that was wanted had been decoded by then, for data that
 // end too soon, and markers that are missing, have warnings of their own.
 bool is_harmless(const jpeg_error_mgr& errors) {
   if (errors.msg_code == JWRN_JFIF_MAJOR) return true;  // a number in the header that nothing depends on
   const int bytes = errors.msg_parm.i[0], marker = errors.msg_parm.i[1];
-  return errors.msg_code == JWRN_EXTRANEOUS_DATA && bytes <= kFewBytes &&
+  return errors.msg_code == JWRN_EXTRANEOUS_DATA && bytes <= kMinBytes &&
          (marker == JPEG_EOI || (marker >= JPEG_RST0 && marker <= JPEG_RST0 + 7));
 }
 
@@ -58,7 +58,7 @@ void print_nothing(j_common_ptr) {}
 
 bool is_luma_first(J_COLOR_SPACE space) { return space == JCS_YCbCr || space == JCS_GRAYSCALE; }
 
-// Reads the header. A camera's picture has one scan; more could keep this thread busy for as long as they
+// Reads the header. A camera's image has one scan; more could keep this thread busy for as long as they
 // like.
 bool read_header(JpegLumaDecoder::Libjpeg& jpeg, std::span<const std::uint8_t> bytes) noexcept {
   if (setjmp(jpeg.failed) != 0) return false;
@@ -103,7 +103,7 @@ JpegLumaDecoder::JpegLumaDecoder() : jpeg_(std::make_unique<Libjpeg>()) {
 
 JpegLumaDecoder::~JpegLumaDecoder() = default;
 
-// libjpeg keeps the Huffman tables it has seen, so a damaged picture could spoil all those after it that
+// libjpeg keeps the Huffman tables it has seen, so a damaged image could spoil all those after it that
 // bring none of their own.
 void JpegLumaDecoder::start_anew() noexcept {
   std::unique_ptr<Libjpeg> fresh(new (std::nothrow) Libjpeg);

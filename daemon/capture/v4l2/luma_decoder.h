@@ -5,13 +5,13 @@
 #include <memory>
 #include <span>
 
-#include "core/image.h"
+#include "core/base/image.h"
 #include "daemon/capture/v4l2/frame_check.h"
 
 namespace stereod {
 
 /// Decodes JPEGs to luma; one for each camera's thread. Allocates nothing itself; libjpeg takes a few blocks
-/// for each picture and gives them back (docs/cameras.md).
+/// for each image and gives them back (docs/cameras.md).
 class JpegLumaDecoder {
  public:
   struct Libjpeg;
@@ -23,10 +23,10 @@ class JpegLumaDecoder {
   JpegLumaDecoder& operator=(const JpegLumaDecoder&) = delete;
 
   /// Decodes a JPEG of just the size of `luma`. JPEGs without Huffman tables, as UVC cameras send them, get
-  /// the standard ones. A header of another size is refused before anything is decoded; a truncated picture,
-  /// which libjpeg would fill up with grey, after; pictures in several scans are
+  /// the standard ones. A header of another size is refused before anything is decoded; a truncated image,
+  /// which libjpeg would fill up with gray, after; images in several scans are
   /// taken for damaged. Bytes too many before the end or before a restart marker do not matter. False: `drop`
-  /// says why, and the picture is undefined.
+  /// says why, and the image is undefined.
   bool decode(std::span<const std::uint8_t> jpeg, ImageView<std::uint8_t> luma, FrameDrop& drop) noexcept;
 
  private:

@@ -8,7 +8,7 @@ namespace {
 
 // Of 16-bit words with 16 significant bits, little-endian, the high byte is the luma.
 constexpr std::array<PixelFormat, 9> kFormats{{
-    {fourcc('G', 'R', 'E', 'Y'), "grey", LumaWork::kNone, 1, 0, 1},
+    {fourcc('G', 'R', 'E', 'Y'), "gray", LumaWork::kNone, 1, 0, 1},
     {fourcc('N', 'V', '1', '2'), "nv12", LumaWork::kNone, 1, 0, 1.5},
     {fourcc('Y', 'U', '1', '2'), "yu12", LumaWork::kNone, 1, 0, 1.5},
     {fourcc('Y', 'U', 'Y', 'V'), "yuyv", LumaWork::kNone, 2, 0, 2},

@@ -27,7 +27,7 @@ struct PixelFormat {
   double traffic = 1;       ///< bytes a pixel on the bus; 0: compressed
 };
 
-/// The format with this fourcc, or with this name (grey, nv12, yu12, yuyv, uyvy, y10, y16, mjpeg); null if it
+/// The format with this fourcc, or with this name (gray, nv12, yu12, yuyv, uyvy, y10, y16, mjpeg); null if it
 /// is not read here.
 const PixelFormat* find_pixel_format(std::uint32_t pixels);
 const PixelFormat* find_pixel_format(std::string_view name);

@@ -29,7 +29,7 @@ std::string side_name(Side side) { return side == Side::kLeft ? "left" : "right"
 
 }  // namespace
 
-V4l2Camera::V4l2Camera(VideoSystem& system, std::shared_ptr<CameraPair> pair, Side side,
+V4l2Camera::V4l2Camera(VideoSystem& system, std::shared_ptr<V4l2PairState> pair, Side side,
                        const CamerasConfig& config, CameraLog log)
     : system_(system),
       pair_(std::move(pair)),
@@ -41,7 +41,7 @@ V4l2Camera::V4l2Camera(VideoSystem& system, std::shared_ptr<CameraPair> pair, Si
       stream_(system, size_),
       exposure_(*pair_, side, config.v4l2),
       name_(side == Side::kLeft ? config.v4l2.left : config.v4l2.right) {
-  fault_ = {CameraReason::kNotFound, CameraStep::kFind, 0, "not looked for yet"};
+  fault_ = {CameraReason::kNotFound, SetupStage::kFind, 0, "not looked for yet"};
 }
 
 FrameLease V4l2Camera::next(std::chrono::milliseconds timeout) noexcept {
@@ -60,7 +60,7 @@ FrameLease V4l2Camera::next(std::chrono::milliseconds timeout) noexcept {
 // Where there is no memory a sentence may fail too; the next round tries again after a pause.
 void V4l2Camera::out_of_memory(const std::exception& error) noexcept {
   try {
-    fail(CameraState::kLost, {CameraReason::kNoMemory, CameraStep::kOpen, 0, error.what()});
+    fail(CameraState::kLost, {CameraReason::kNoMemory, SetupStage::kOpen, 0, error.what()});
   } catch (const std::exception&) {
     state_ = CameraState::kLost;
   }
@@ -105,18 +105,18 @@ void V4l2Camera::open() {
   if (fault->reason == CameraReason::kSameCamera && wait_for_other()) return;
   if (fault->reason == CameraReason::kNoBandwidth) no_bandwidth(*fault);
   count_refusal(*fault);
-  const bool absent = fault->step == CameraStep::kFind || fault->reason == CameraReason::kUnplugged;
+  const bool absent = fault->step == SetupStage::kFind || fault->reason == CameraReason::kUnplugged;
   fail(absent ? CameraState::kAbsent : CameraState::kOpening, std::move(*fault));
 }
 
 // A driver may offer a format that it then does not take; the next on the ladder is as good as another bus.
 void V4l2Camera::count_refusal(const CameraFault& fault) {
-  const bool refused = fault.step == CameraStep::kSetFormat && (fault.reason == CameraReason::kOtherFormat ||
+  const bool refused = fault.step == SetupStage::kSetFormat && (fault.reason == CameraReason::kOtherFormat ||
                                                                 fault.reason == CameraReason::kNoFormat);
   refusals_ = refused ? refusals_ + 1 : 0;
   if (refusals_ < kRefusals) return;
   refusals_ = 0;
-  pair_->step_down(side_, ladder_step_);
+  pair_->step_down(side_, fallback_level_);
 }
 
 // After ports were swapped the other camera may not have noticed yet that it lost what is found here.
@@ -141,15 +141,15 @@ std::optional<CameraFault> V4l2Camera::find_and_open() {
     return fault;
   }
   if (!pair_->take_device(side_, system_.camera_of(node_))) {
-    return CameraFault{CameraReason::kSameCamera, CameraStep::kFind, 0,
+    return CameraFault{CameraReason::kSameCamera, SetupStage::kFind, 0,
                        node_ + " belongs to the camera that is the " + side_name(opposite(side_)) +
                            " one; name two cameras in cameras.v4l2"};
   }
   refused_ns_ = 0;
-  ladder_step_ = pair_->ladder_step();
-  StreamOptions options{node_, size_, config_.fps, config_.v4l2.format, ladder_step_};
+  fallback_level_ = pair_->fallback_level();
+  StreamOptions options{node_, size_, config_.fps, config_.v4l2.format, fallback_level_};
   std::optional<CameraFault> fault = stream_.open(options);
-  pair_->set_facts(side_, stream_.facts());
+  pair_->set_stream_info(side_, stream_.info());
   if (!fault) name_ = stable_name;
   return fault;
 }
@@ -157,11 +157,11 @@ std::optional<CameraFault> V4l2Camera::find_and_open() {
 void V4l2Camera::opened() {
   phase_ = Phase::kFlowing;
   started();
-  const StreamFacts& facts = stream_.facts();
-  frame_time_ns_ = facts.fps > 0 ? static_cast<std::int64_t>(1e9 / facts.fps) : 0;
+  const StreamInfo& info = stream_.info();
+  frame_time_ns_ = info.fps > 0 ? static_cast<std::int64_t>(1e9 / info.fps) : 0;
   const std::lock_guard lock(mutex_);
-  device_ = node_ + " (" + facts.device.card + ", " + facts.device.bus + ")";
-  format_ = describe(facts);
+  device_ = node_ + " (" + info.device.card + ", " + info.device.bus + ")";
+  format_ = describe(info);
   // A wedged or lost camera is that until a frame comes.
   if (state_ == CameraState::kAbsent) state_ = CameraState::kOpening;
 }
@@ -173,13 +173,13 @@ void V4l2Camera::started() {
 }
 
 FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
-  if (ladder_step_ != pair_->ladder_step()) {
+  if (fallback_level_ != pair_->fallback_level()) {
     change_format();
     return {};
   }
   if (restart_wanted_) restart_in_phase();
   if (phase_ != Phase::kFlowing) return {};
-  keep_exposure();
+  sync_exposure();
   const std::int64_t wait_ns = std::min(until_ns, last_good_ns_ + patience_ns()) - system_.now_ns();
   const auto wait = std::chrono::milliseconds(std::max<std::int64_t>(0, wait_ns) / 1'000'000 + 1);
   const std::int64_t asked_ns = system_.now_ns();
@@ -191,12 +191,12 @@ FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
   FrameLease lease;
   if (ready.readable || ready.broken) {
     int error = 0;
-    CameraStep at = CameraStep::kDequeue;
+    SetupStage at = SetupStage::kDequeue;
     const std::int64_t seen_before = stream_.buffers_seen();
     lease = stream_.newest(error, at);
     if (error == 0 && ready.broken && stream_.buffers_seen() == seen_before) {
       error = EIO;
-      at = CameraStep::kWait;
+      at = SetupStage::kWait;
     }
     const bool nothing = !lease && error == 0 && stream_.buffers_seen() == seen_before;
     if (nothing) waiter_->wait(-1, std::chrono::milliseconds(1));  // a driver that calls for nothing
@@ -223,9 +223,9 @@ FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
 
 // The other camera has changed what both may put on the bus.
 void V4l2Camera::change_format() {
-  const bool less = pair_->ladder_step() > ladder_step_;
+  const bool less = pair_->fallback_level() > fallback_level_;
   fail(CameraState::kOpening,
-       {less ? CameraReason::kNoBandwidth : CameraReason::kMoreBandwidth, CameraStep::kSetFormat, 0,
+       {less ? CameraReason::kNoBandwidth : CameraReason::kMoreBandwidth, SetupStage::kSetFormat, 0,
         less ? "is set up again with less on the bus, because the other camera cannot get the bandwidth it "
                "needs"
              : "is set up again with its best format, because a camera has moved to another bus"});
@@ -247,7 +247,7 @@ void V4l2Camera::restart_in_phase() {
 }
 
 // Between two frames, when nothing waits.
-void V4l2Camera::keep_exposure() {
+void V4l2Camera::sync_exposure() {
   if (exposure_.outdated()) {
     exposure_.begin(stream_.device(), system_.now_ns());
     set_note(exposure_.note());
@@ -293,7 +293,7 @@ void V4l2Camera::check_silence(std::int64_t now_ns) {
   if (now_ns - last_good_ns_ < patience_ns()) return;
   if (!had_frame_) ++starts_in_vain_;
   const std::int64_t damaged = stream_.buffers_seen() - buffers_at_last_good_;
-  CameraFault fault{CameraReason::kSilent, CameraStep::kWait, 0,
+  CameraFault fault{CameraReason::kSilent, SetupStage::kWait, 0,
                     node_ + " has fallen silent; it is set up again until frames come"};
   if (damaged > 0) {
     fault.reason = CameraReason::kOnlyDamaged;
@@ -306,7 +306,7 @@ void V4l2Camera::check_silence(std::int64_t now_ns) {
     silent_starts_ = starved ? silent_starts_ + 1 : 0;
     if (silent_starts_ >= 2) no_bandwidth(fault);
   }
-  fail(CameraState::kWedged, std::move(fault));
+  fail(CameraState::kStalled, std::move(fault));
   retry_ns_ = 0;  // it was silent long enough
 }
 
@@ -314,7 +314,7 @@ void V4l2Camera::check_silence(std::int64_t now_ns) {
 void V4l2Camera::no_bandwidth(CameraFault& fault) {
   fault.reason = CameraReason::kNoBandwidth;
   fault.sentence = pair_->bandwidth_sentence(side_);
-  const bool stepped = pair_->step_down(side_, ladder_step_);
+  const bool stepped = pair_->step_down(side_, fallback_level_);
   if (!stepped) return;  // and every start in vain is blamed on the bus
   fault.sentence += "; until then both cameras are set up with less";
   silent_starts_ = 0;
@@ -327,7 +327,7 @@ void V4l2Camera::lose(CameraFault fault) {
 }
 
 void V4l2Camera::fail(CameraState state, CameraFault fault) {
-  const bool look_again = fault.step == CameraStep::kFind || fault.reason == CameraReason::kUnplugged;
+  const bool look_again = fault.step == SetupStage::kFind || fault.reason == CameraReason::kUnplugged;
   stream_.stop();
   pair_->set_flowing(side_, false);
   pair_->stopped(side_);
@@ -340,7 +340,7 @@ void V4l2Camera::fail(CameraState state, CameraFault fault) {
   retry_ns_ = system_.now_ns() + (look_again ? kLookAgain : kRetry);
   const std::lock_guard lock(mutex_);
   // A camera that is set up in vain stays what it became when it failed.
-  const bool still_down = state_ == CameraState::kWedged || state_ == CameraState::kLost;
+  const bool still_down = state_ == CameraState::kStalled || state_ == CameraState::kLost;
   if (!(still_down && state == CameraState::kOpening)) state_ = state;
   if (fault.reason != fault_.reason || last_fault_ns_ == 0) {
     last_fault_ = fault.sentence;
@@ -393,7 +393,7 @@ SourceReport V4l2Camera::report() const {
   report.decode_errors =
       drops[FrameDrop::kNoJpeg] + drops[FrameDrop::kJpegSize] + drops[FrameDrop::kJpegDamaged];
   report.incomplete = drops[FrameDrop::kDriverError] + drops[FrameDrop::kEmpty] + drops[FrameDrop::kShort];
-  report.bad_stamps = drops[FrameDrop::kStale] + drops[FrameDrop::kStampBackwards];
+  report.bad_timestamps = drops[FrameDrop::kStale] + drops[FrameDrop::kTimestampBackwards];
   report.superseded = drops[FrameDrop::kSuperseded] + drops[FrameDrop::kNoRoom];
   return report;
 }

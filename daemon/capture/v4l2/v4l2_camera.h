@@ -9,9 +9,9 @@
 #include <string>
 
 #include "daemon/capture/frame_source.h"
-#include "daemon/capture/v4l2/camera_pair.h"
 #include "daemon/capture/v4l2/camera_stream.h"
-#include "daemon/capture/v4l2/exposure_keeper.h"
+#include "daemon/capture/v4l2/exposure_sync.h"
+#include "daemon/capture/v4l2/v4l2_pair_state.h"
 #include "daemon/config/config.h"
 
 namespace stereod {
@@ -26,7 +26,7 @@ using CameraLog = std::function<void(LogLevel level, const std::string& sentence
 class V4l2Camera final : public FrameSource {
  public:
   /// `system` outlives the camera. Throws std::bad_alloc and std::system_error.
-  V4l2Camera(VideoSystem& system, std::shared_ptr<CameraPair> pair, Side side, const CamerasConfig& config,
+  V4l2Camera(VideoSystem& system, std::shared_ptr<V4l2PairState> pair, Side side, const CamerasConfig& config,
              CameraLog log);
 
   Size frame_size() const override { return size_; }
@@ -59,12 +59,12 @@ class V4l2Camera final : public FrameSource {
   void no_bandwidth(CameraFault& fault);
   void change_format();
   void restart_in_phase();
-  void keep_exposure();
+  void sync_exposure();
   void set_note(const std::string& note);
   std::int64_t patience_ns() const noexcept;
 
   VideoSystem& system_;
-  const std::shared_ptr<CameraPair> pair_;
+  const std::shared_ptr<V4l2PairState> pair_;
   const Side side_;
   const CamerasConfig config_;
   const Size size_;
@@ -75,11 +75,11 @@ class V4l2Camera final : public FrameSource {
 
   // The camera's own thread's.
   CameraStream stream_;
-  ExposureKeeper exposure_;
+  ExposureSync exposure_;
   Phase phase_ = Phase::kClosed;
   std::string name_;  // what to look for
   std::string node_;  // what it was found as
-  int ladder_step_ = 0;
+  int fallback_level_ = 0;
   std::int64_t retry_ns_ = 0;    // when to look again
   std::int64_t refused_ns_ = 0;  // since when the other camera has what this one is to be; 0: it has not
   std::int64_t last_good_ns_ = 0;

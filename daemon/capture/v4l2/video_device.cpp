@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 // Drivers end their lists with an error; one that never does is cut off here.
-constexpr std::uint32_t kLongestList = 256;
+constexpr std::uint32_t kMaxList = 256;
 
 std::string text_of(const __u8* field, std::size_t size) {
   const char* text = reinterpret_cast<const char*>(field);
@@ -88,7 +88,7 @@ int VideoDevice::capability(DeviceCapability& capability) {
 
 int VideoDevice::formats(std::vector<std::uint32_t>& formats) {
   formats.clear();
-  for (std::uint32_t i = 0; i < kLongestList; ++i) {
+  for (std::uint32_t i = 0; i < kMaxList; ++i) {
     v4l2_fmtdesc answer{};
     answer.index = i;
     answer.type = kCapture;
@@ -103,7 +103,7 @@ int VideoDevice::formats(std::vector<std::uint32_t>& formats) {
 int VideoDevice::offers_size(std::uint32_t pixels, Size size, bool& offered) {
   const auto width = static_cast<std::uint32_t>(size.width), height = static_cast<std::uint32_t>(size.height);
   offered = false;
-  for (std::uint32_t i = 0; i < kLongestList; ++i) {
+  for (std::uint32_t i = 0; i < kMaxList; ++i) {
     v4l2_frmsizeenum answer{};
     answer.index = i;
     answer.pixel_format = pixels;
@@ -129,7 +129,7 @@ std::vector<Size> VideoDevice::sizes(std::uint32_t pixels) {
   const auto add = [&](std::uint32_t width, std::uint32_t height) {
     sizes.push_back({static_cast<int>(width), static_cast<int>(height)});
   };
-  for (std::uint32_t i = 0; i < kLongestList; ++i) {
+  for (std::uint32_t i = 0; i < kMaxList; ++i) {
     v4l2_frmsizeenum answer{};
     answer.index = i;
     answer.pixel_format = pixels;
@@ -147,7 +147,7 @@ std::vector<Size> VideoDevice::sizes(std::uint32_t pixels) {
 
 OfferedRates VideoDevice::rates(std::uint32_t pixels, Size size) {
   OfferedRates rates;
-  for (std::uint32_t i = 0; i < kLongestList; ++i) {
+  for (std::uint32_t i = 0; i < kMaxList; ++i) {
     v4l2_frmivalenum answer{};
     answer.index = i;
     answer.pixel_format = pixels;
@@ -175,10 +175,9 @@ int VideoDevice::set_format(DeviceFormat& format) {
   answer.fmt.pix.field = V4L2_FIELD_ANY;
   if (const int error = request(VIDIOC_S_FMT, &answer)) return error;
   const v4l2_pix_format& got = answer.fmt.pix;
-  constexpr std::uint32_t kLargest = 1u << 20;  // px; keeps what follows from overflowing
+  constexpr std::uint32_t kMax = 1u << 20;  // px; keeps what follows from overflowing
   format.pixels = got.pixelformat;
-  format.size = {static_cast<int>(std::min(got.width, kLargest)),
-                 static_cast<int>(std::min(got.height, kLargest))};
+  format.size = {static_cast<int>(std::min(got.width, kMax)), static_cast<int>(std::min(got.height, kMax))};
   format.bytes_per_line = got.bytesperline;
   format.image_bytes = got.sizeimage;
   return 0;
@@ -231,11 +230,12 @@ int VideoDevice::dequeue(FilledBuffer& filled) noexcept {
   filled.index = buffer.index;
   filled.bytes = buffer.bytesused;
   filled.sequence = buffer.sequence;
-  filled.stamp_ns =
+  filled.timestamp_ns =
       std::int64_t{buffer.timestamp.tv_sec} * 1'000'000'000 + std::int64_t{buffer.timestamp.tv_usec} * 1000;
   filled.error = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0;
-  filled.stamp_monotonic = (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
-  filled.stamp_start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+  filled.timestamp_monotonic =
+      (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+  filled.timestamp_start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
   return 0;
 }
 
@@ -252,7 +252,7 @@ int VideoDevice::stream_off() noexcept {
 std::vector<DeviceControl> VideoDevice::controls() {
   std::vector<DeviceControl> controls;
   std::uint32_t id = 0;
-  for (std::uint32_t i = 0; i < kLongestList; ++i) {
+  for (std::uint32_t i = 0; i < kMaxList; ++i) {
     v4l2_queryctrl answer{};
     answer.id = id | V4L2_CTRL_FLAG_NEXT_CTRL;
     if (request(VIDIOC_QUERYCTRL, &answer) != 0) break;

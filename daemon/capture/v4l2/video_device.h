@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image.h"
+#include "core/base/image.h"
 #include "daemon/capture/v4l2/video_system.h"
 
 namespace stereod {
@@ -25,11 +25,11 @@ std::string fourcc_name(std::uint32_t format);
 struct DeviceCapability {
   std::string card;       ///< the camera's name
   std::string bus;        ///< where it is plugged in: usb-0000:00:14.0-3
-  bool captures = false;  ///< gives pictures; a metadata node does not
+  bool captures = false;  ///< gives images; a metadata node does not
   bool streams = false;   ///< into mapped buffers
 };
 
-/// How pictures lie in a buffer.
+/// How images lie in a buffer.
 struct DeviceFormat {
   std::uint32_t pixels = 0;  ///< fourcc
   Size size;
@@ -43,10 +43,10 @@ struct FilledBuffer {
   std::uint32_t index = 0;
   std::uint32_t bytes = 0;
   std::uint32_t sequence = 0;
-  std::int64_t stamp_ns = 0;
-  bool error = false;            ///< the driver says that the picture is damaged
-  bool stamp_monotonic = false;  ///< else the stamp's clock is not known
-  bool stamp_start = false;      ///< of the exposure; else the end of the frame
+  std::int64_t timestamp_ns = 0;
+  bool error = false;                ///< the driver says that the image is damaged
+  bool timestamp_monotonic = false;  ///< else the stamp's clock is not known
+  bool timestamp_start = false;      ///< of the exposure; else the end of the frame
 };
 
 struct DeviceControl {

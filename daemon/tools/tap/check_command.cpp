@@ -3,9 +3,10 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "daemon/base/stop_signals.h"
 #include "daemon/client/stereod_client.h"
+#include "daemon/lcm/receiver.h"
 #include "daemon/tools/tap/frame_listener.h"
-#include "daemon/tools/tap/lcm_receiver.h"
 #include "daemon/tools/tap/reception_report.h"
 #include "daemon/tools/tap/tap.h"
 #include "daemon/tools/tap/text_table.h"
@@ -53,7 +54,7 @@ int run_check(const TapOptions& tap, const CheckOptions& options, StopSignals& s
   for (const std::string& line : report_lines(reception)) std::printf("%s\n", line.c_str());
   if (!reception.anything_lost()) return kAllWell;
   if (reception.counts.messages_of_another > 0) return kSomethingLost;  // the report says what to do
-  if (const auto advice = receive_buffer_advice(kernel_receive_buffer_limit())) complain(*advice);
+  if (const auto instruction = receive_buffer_advice(kernel_receive_buffer_limit())) complain(*instruction);
   return kSomethingLost;
 }
 

@@ -1,6 +1,6 @@
 #include "daemon/tools/tap/frame_listener.h"
 
-#include "daemon/tools/tap/message_decoder.h"
+#include "daemon/lcm/message_decoder.h"
 
 namespace stereod {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "daemon/client/stereod_client.h"
-#include "daemon/tools/tap/lcm_receiver.h"
+#include "daemon/lcm/receiver.h"
 #include "daemon/tools/tap/tap.h"
 
 namespace stereod {

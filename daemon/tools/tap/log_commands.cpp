@@ -5,9 +5,10 @@
 #include <cstdio>
 #include <thread>
 
-#include "daemon/publish/lcm_bus.h"
-#include "daemon/publish/lcm_log.h"
-#include "daemon/tools/tap/lcm_receiver.h"
+#include "daemon/base/stop_signals.h"
+#include "daemon/lcm/bus.h"
+#include "daemon/lcm/log.h"
+#include "daemon/lcm/receiver.h"
 #include "daemon/tools/tap/log_summary.h"
 #include "daemon/tools/tap/tap.h"
 #include "daemon/tools/tap/text_table.h"
@@ -19,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 // Between two messages; more is a pause that nobody needs, or a damaged time.
-constexpr double kLongestWait_s = 10;
+constexpr double kMaxWait_s = 10;
 
 void print(const LogSummary& summary) {
   for (const std::string& line : summary.lines()) std::printf("%s\n", line.c_str());
@@ -83,7 +84,7 @@ int run_play(const TapOptions& tap, const PlayOptions& options, StopSignals& sto
     const double event_s = static_cast<double>(event.utime) * 1e-6;
     const double step_s = summary.messages() == 0 ? 0 : event_s - previous_s;
     previous_s = event_s;
-    if (std::abs(step_s) > kLongestWait_s) {
+    if (std::abs(step_s) > kMaxWait_s) {
       ++jumps;
     } else {
       after_s += step_s / options.speed;

@@ -4,7 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "daemon/publish/lcm_url.h"
+#include "daemon/base/stop_signals.h"
+#include "daemon/lcm/url.h"
 #include "daemon/tools/tap/tap.h"
 
 namespace stereod {
@@ -45,7 +46,7 @@ void add_status(CLI::App& app, CommandLine& line) {
 
 void add_save(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand(
-      "save", "Writes frames into files: disparities in px (.pfm) and a picture in colours (.png).");
+      "save", "Writes frames into files: disparities in px (.pfm) and a image in colors (.png).");
   command->add_option("--frames", line.save.frames, "how many")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();

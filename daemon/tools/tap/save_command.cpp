@@ -7,15 +7,16 @@
 #include <optional>
 #include <stdexcept>
 
+#include "daemon/base/stop_signals.h"
 #include "daemon/client/stereod_client.h"
 #include "daemon/imagefile/disparity_file.h"
-#include "daemon/imagefile/disparity_picture.h"
 #include "daemon/imagefile/write_image.h"
+#include "daemon/lcm/message_decoder.h"
+#include "daemon/lcm/receiver.h"
 #include "daemon/tools/tap/frame_listener.h"
-#include "daemon/tools/tap/lcm_receiver.h"
-#include "daemon/tools/tap/message_decoder.h"
 #include "daemon/tools/tap/tap.h"
 #include "daemon/tools/tap/text_table.h"
+#include "daemon/visual/disparity_rendering.h"
 
 namespace stereod {
 namespace {
@@ -59,7 +60,7 @@ double valid_share(DisparityView disparity) {
 std::string grid_in_words(const PixelGrid& grid) {
   if (grid == PixelGrid{}) return "";
   return " (from column " + std::to_string(grid.left) + ", row " + std::to_string(grid.top) + " on, steps " +
-         std::to_string(grid.column_step) + " x " + std::to_string(grid.row_step) + ")";
+         std::to_string(grid.decimation_x) + " x " + std::to_string(grid.decimation_y) + ")";
 }
 
 /// Writes frame-NUMBER.pfm and frame-NUMBER.png and says so.
@@ -68,7 +69,7 @@ void save(const StereoFrame& frame, const std::filesystem::path& directory, std:
   std::snprintf(name, sizeof name, "frame-%06lld", static_cast<long long>(frame.frame));
   const std::filesystem::path pfm = directory / (std::string(name) + ".pfm");
   const std::filesystem::path png = directory / (std::string(name) + ".png");
-  DisparityPictureOptions look;
+  DisparityRenderingOptions look;
   look.depth = depth;
 
   const DisparityMap& map = frame.disparity;
@@ -79,7 +80,7 @@ void save(const StereoFrame& frame, const std::filesystem::path& directory, std:
   write_png(png, picture.view());
   std::printf("%s and .png: %d x %d%s, %s %% valid, scale in %s\n", pfm.c_str(), disparity.width(),
               disparity.height(), grid_in_words(frame.grid).c_str(),
-              fixed(100 * valid_share(disparity), 1).c_str(), depth ? "metres" : "pixels");
+              fixed(100 * valid_share(disparity), 1).c_str(), depth ? "meters" : "pixels");
   std::fflush(stdout);
 }
 
@@ -101,10 +102,10 @@ struct Tally {
 
 int verdict(const TapOptions& tap, const LcmReceiver& receiver, const SaveOptions& options,
             const Tally& tally, const ReceptionCounts& counts) {
-  if (counts.messages_of_another > 0) complain(problem_in_words(counts));
+  if (counts.messages_of_another > 0) complain(describe_problems(counts));
   if (tally.incomplete > 0) {
     complain(std::to_string(tally.incomplete) + " frames arrived incomplete and were not saved.");
-    if (const auto advice = receive_buffer_advice(kernel_receive_buffer_limit())) complain(*advice);
+    if (const auto instruction = receive_buffer_advice(kernel_receive_buffer_limit())) complain(*instruction);
   }
   if (tally.saved == options.frames) return counts.messages_of_another > 0 ? kSomethingLost : kAllWell;
   complain("no whole frame on " + tap.channel("DISPARITY") + " and " + tap.channel("FRAME") + " for " +

@@ -8,8 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "daemon/tools/tap/lcm_receiver.h"
-#include "daemon/tools/tap/message_decoder.h"
+#include "daemon/base/stop_signals.h"
+#include "daemon/lcm/message_decoder.h"
+#include "daemon/lcm/receiver.h"
 #include "daemon/tools/tap/status_table.h"
 #include "daemon/tools/tap/tap.h"
 #include "daemon/tools/tap/text_table.h"

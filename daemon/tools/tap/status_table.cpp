@@ -37,9 +37,9 @@ std::string frames(const camera_status_t& camera) {
 }
 
 std::string phase(const status_t& s) {
-  if (s.phase_alignment.empty()) return "-";
-  return printable(s.phase_alignment) + ", skew " + fixed(s.phase_skew_ms, 2) + " ms, " +
-         number(s.phase_restarts) + " restarts";
+  if (s.sync_state.empty()) return "-";
+  return printable(s.sync_state) + ", skew " + fixed(s.sync_skew_ms, 2) + " ms, " + number(s.sync_restarts) +
+         " restarts";
 }
 
 Lines head(const status_t& s) {
@@ -74,7 +74,7 @@ Lines cameras(const camera_status_t& l, const camera_status_t& r, std::int64_t n
   table.add_row({"  sequence gaps", number(l.sequence_gaps), number(r.sequence_gaps)});
   table.add_row({"  decode errors", number(l.decode_errors), number(r.decode_errors)});
   table.add_row({"  incomplete", number(l.frames_incomplete), number(r.frames_incomplete)});
-  table.add_row({"  bad stamps", number(l.frames_bad_stamp), number(r.frames_bad_stamp)});
+  table.add_row({"  bad stamps", number(l.frames_bad_timestamp), number(r.frames_bad_timestamp)});
   table.add_row({"  superseded", number(l.frames_superseded), number(r.frames_superseded)});
   table.add_row({"  reconnects", number(l.reconnects), number(r.reconnects)});
   return table.lines();
@@ -95,9 +95,9 @@ Lines load(const status_t& s) {
   TextTable table({{.min_width = 16}, {.align = Align::kRight, .min_width = 7}, {}});
   table.add_row({"frames in", fixed(s.fps_in, 1), "/s"});
   table.add_row({"frames out", fixed(s.fps_out, 1), "/s"});
-  table.add_row({"valid pixels", fixed(100 * s.valid_fraction, 1), "%"});
-  const bool known = s.row_error_points > 0;
-  table.add_row({"rows apart", known ? fixed(s.row_error_px, 2) : "-", "px"});
+  table.add_row({"valid pixels", fixed(100 * s.measured_fraction, 1), "%"});
+  const bool known = s.epipolar_points > 0;
+  table.add_row({"rows apart", known ? fixed(s.epipolar_error_px, 2) : "-", "px"});
   table.add_row({"CPU", fixed(s.cpu_percent, 1), "%"});
   table.add_row({"memory", fixed(s.rss_mb, 1), "MB"});
   return table.lines();

@@ -1,7 +1,7 @@
 // What the commands of stereo-tap share.
 #pragma once
 
-#include <signal.h>
+#include "daemon/base/stop_signals.h"
 
 #include <filesystem>
 #include <string>
@@ -23,19 +23,6 @@ enum ExitStatus : int {
   kFailed = 1,  ///< wrong usage, no network, a file that cannot be written
   kNothingArrived = 2,
   kSomethingLost = 3,
-};
-
-/// Keeps SIGINT and SIGTERM from ending the program in the middle of something: from its construction on they
-/// are only noted. Make it before LCM starts its threads, which inherit this.
-class StopSignals {
- public:
-  StopSignals();
-  /// True once one of them has come.
-  bool arrived();
-
- private:
-  sigset_t signals_{};
-  bool arrived_ = false;
 };
 
 struct StatusOptions {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "daemon/imagefile/jpeg_encoder.h"
-#include "daemon/publish/pixel_format_codes.h"
-#include "daemon/publish/wire_limits.h"
+#include "daemon/lcm/limits.h"
+#include "daemon/lcm/pixel_format_codes.h"
 
 namespace stereod {
 namespace {
@@ -28,25 +28,25 @@ bool is_near(std::int64_t utime, std::int64_t other, std::int64_t us) {
 }
 
 // As the daemon makes them; a page that draws anything else would be busy for long.
-bool is_sane(const planar_lidar_t& scan) {
-  constexpr std::size_t kMostRays = 1024;
+bool is_valid(const planar_lidar_t& scan) {
+  constexpr std::size_t kMaxRays = 1024;
   constexpr float kFarthest = 1000;  // m
-  return scan.ranges.size() <= kMostRays && scan.intensities.size() == scan.ranges.size() &&
+  return scan.ranges.size() <= kMaxRays && scan.intensities.size() == scan.ranges.size() &&
          std::isfinite(scan.rad0) && std::isfinite(scan.radstep) &&
          std::all_of(scan.ranges.begin(), scan.ranges.end(),
                      [](float r) { return r >= 0 && r <= kFarthest; });
 }
 
 std::vector<std::uint8_t> jpeg_of(const image_t& image) {
-  const bool sane = image.width > 0 && image.width <= kLargestImageSide && image.height > 0 &&
-                    image.height <= kLargestImageSide;
+  const bool sane =
+      image.width > 0 && image.width <= kMaxImageSide && image.height > 0 && image.height <= kMaxImageSide;
   if (!sane) return {};
   if (image.pixelformat == kPixelFormatMjpeg) return image.data;
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  if (image.pixelformat != kPixelFormatGrey || image.row_stride != image.width || image.data.size() != pixels)
+  if (image.pixelformat != kPixelFormatGray || image.row_stride != image.width || image.data.size() != pixels)
     return {};
   JpegEncoder encoder({image.width, image.height}, 80);
-  const auto bytes = encoder.encode(GreyView(image.data.data(), image.width, image.height, image.row_stride));
+  const auto bytes = encoder.encode(GrayView(image.data.data(), image.width, image.height, image.row_stride));
   return {bytes.begin(), bytes.end()};
 }
 
@@ -60,7 +60,7 @@ void LiveView::take(StereoFrame&& frame, const ReceptionCounts& counts) {
 }
 
 void LiveView::take(planar_lidar_t&& scan) {
-  if (!is_sane(scan)) return;
+  if (!is_valid(scan)) return;
   const std::lock_guard lock(mutex_);
   scan_ = std::move(scan);
 }
@@ -81,25 +81,25 @@ void LiveView::take(const image_t& left) {
 }
 
 void LiveView::publish_locked(std::optional<StereoFrame>&& frame) {
-  auto moment = std::make_shared<Moment>();
-  moment->number = ++number_;
-  moment->frame = std::move(frame);
-  const auto& shown = moment->frame;
-  if (shown && scan_ && is_near(scan_->utime, shown->utime, kScanUs)) moment->scan = scan_;
-  moment->status = status_;
-  moment->status_age_ms =
+  auto snapshot = std::make_shared<Snapshot>();
+  snapshot->number = ++number_;
+  snapshot->frame = std::move(frame);
+  const auto& shown = snapshot->frame;
+  if (shown && scan_ && is_near(scan_->utime, shown->utime, kScanUs)) snapshot->scan = scan_;
+  snapshot->status = status_;
+  snapshot->status_age_ms =
       std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - status_came_).count();
   if (shown && is_near(left_utime_, shown->utime, kLeftUs)) {
-    moment->left_jpeg = left_jpeg_;
-    moment->left_utime = left_utime_;
+    snapshot->left_jpeg = left_jpeg_;
+    snapshot->left_utime = left_utime_;
   }
-  moment->counts = counts_;
-  newest_ = std::move(moment);
+  snapshot->counts = counts_;
+  newest_ = std::move(snapshot);
   changed_.notify_all();
 }
 
-std::shared_ptr<const Moment> LiveView::wait_newer(std::int64_t after,
-                                                   std::chrono::milliseconds patience) const {
+std::shared_ptr<const Snapshot> LiveView::wait_newer(std::int64_t after,
+                                                     std::chrono::milliseconds patience) const {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, patience, [&] { return newest_ && newest_->number > after; });
   return newest_;

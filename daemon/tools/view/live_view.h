@@ -18,7 +18,7 @@
 namespace stereod {
 
 /// A frame and what was known when it came. Never changed once it can be seen by several threads.
-struct Moment {
+struct Snapshot {
   std::int64_t number = 0;  ///< counts up from 1 with everything new; not the frame's
   std::optional<StereoFrame> frame;
   std::optional<planar_lidar_t> scan;  ///< and left image: none if the newest is too far from the frame
@@ -38,19 +38,19 @@ class LiveView {
   void take(planar_lidar_t&& scan);
   /// Without frames (no cameras, say) a status makes a moment, too.
   void take(status_t&& status);
-  /// Only 8-bit grey and JPEG of a sane size; anything else is passed over.
+  /// Only 8-bit gray and JPEG of a sane size; anything else is passed over.
   void take(const image_t& left);
 
   /// The newest moment once its number is greater than `after`, or after `patience` whatever there is; null
   /// if nothing ever came.
-  std::shared_ptr<const Moment> wait_newer(std::int64_t after, std::chrono::milliseconds patience) const;
+  std::shared_ptr<const Snapshot> wait_newer(std::int64_t after, std::chrono::milliseconds patience) const;
 
  private:
   void publish_locked(std::optional<StereoFrame>&& frame);
 
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
-  std::shared_ptr<const Moment> newest_;
+  std::shared_ptr<const Snapshot> newest_;
   std::int64_t number_ = 0;
   ReceptionCounts counts_;
   std::optional<planar_lidar_t> scan_;
@@ -61,8 +61,8 @@ class LiveView {
 };
 
 /// A moment as the page fetches it: the length of the JSON (4 bytes, little-endian), the JSON, the
-/// disparities of every `step`-th row and column (packed as moment_codec.cpp says, compressed by zlib), the
+/// disparities of every `step`-th row and column (packed as snapshot_codec.cpp says, compressed by zlib), the
 /// left image as JPEG. The JSON says how long the last two are.
-std::string encoded_moment(const Moment& moment, int step);
+std::string encoded_moment(const Snapshot& snapshot, int step);
 
 }  // namespace stereod

@@ -3,7 +3,7 @@
 #include <span>
 #include <utility>
 
-#include "daemon/tools/tap/message_decoder.h"
+#include "daemon/lcm/message_decoder.h"
 
 namespace stereod {
 namespace {
@@ -38,8 +38,8 @@ ViewFeed::ViewFeed(const std::string& lcm_url, const std::string& prefix, LiveVi
 }
 
 void ViewFeed::take_others() {
-  constexpr int kMost = 100;  // messages, so that frames have their turn
-  for (int i = 0; i < kMost && others_.receive(std::chrono::milliseconds(0)); ++i) {
+  constexpr int kMax = 100;  // messages, so that frames have their turn
+  for (int i = 0; i < kMax && others_.receive(std::chrono::milliseconds(0)); ++i) {
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "daemon/tools/tap/lcm_receiver.h"
+#include "daemon/lcm/receiver.h"
 #include "daemon/tools/view/live_view.h"
 
 namespace stereod {

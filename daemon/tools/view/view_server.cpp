@@ -19,9 +19,9 @@ namespace {
 
 constexpr int kThreads = 32;       // each waits for one client
 constexpr int kClientTimeout = 3;  // s, for a client that sends or takes nothing
-constexpr std::size_t kLongestRequest = 4096;
+constexpr std::size_t kMaxRequest = 4096;
 constexpr std::chrono::milliseconds kPatience{1000};  // how long a request waits for something new
-constexpr int kLargestStep = 8;
+constexpr int kMaxStep = 8;
 constexpr std::string_view kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' blob:; "
     "frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
@@ -46,30 +46,30 @@ struct ViewServer::Server {
   std::jthread thread;
 
   /// Encoded once, however many clients ask for it.
-  std::shared_ptr<const std::string> encoded_once(const Moment& moment, int step) {
+  std::shared_ptr<const std::string> encoded_once(const Snapshot& snapshot, int step) {
     const std::lock_guard lock(mutex);
     auto& [number, bytes] = encoded[step];
-    if (!bytes || number != moment.number) {
-      number = moment.number;
-      bytes = std::make_shared<const std::string>(encoded_moment(moment, step));
+    if (!bytes || number != snapshot.number) {
+      number = snapshot.number;
+      bytes = std::make_shared<const std::string>(encoded_moment(snapshot, step));
     }
     return bytes;
   }
 
   void answer_moment(const httplib::Request& request, httplib::Response& response) {
     const std::int64_t after = number_of(request, "after", 0), step = number_of(request, "step", 1);
-    if (after < 0 || step < 1 || step > kLargestStep) {
+    if (after < 0 || step < 1 || step > kMaxStep) {
       response.status = 400;
       response.set_content("after is a number, step is 1 to 8\n", "text/plain");
       return;
     }
-    const auto moment = view.wait_newer(after, kPatience);
-    if (!moment || moment->number <= after) {
+    const auto snapshot = view.wait_newer(after, kPatience);
+    if (!snapshot || snapshot->number <= after) {
       // 205: the page has seen more than there was, so this server began anew; so does the page.
-      response.status = (moment ? moment->number : 0) < after ? 205 : 204;
+      response.status = (snapshot ? snapshot->number : 0) < after ? 205 : 204;
       return;
     }
-    const auto bytes = encoded_once(*moment, static_cast<int>(step));
+    const auto bytes = encoded_once(*snapshot, static_cast<int>(step));
     response.set_content_provider(bytes->size(), "application/octet-stream",
                                   [bytes](std::size_t at, std::size_t size, httplib::DataSink& sink) {
                                     at = std::min(at, bytes->size());
@@ -88,7 +88,7 @@ void serve_text(httplib::Server& http, const char* path, std::string_view text, 
 
 void set_limits(httplib::Server& http) {
   http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
-  http.set_payload_max_length(kLongestRequest);
+  http.set_payload_max_length(kMaxRequest);
   http.set_read_timeout(kClientTimeout);
   http.set_write_timeout(kClientTimeout);
   http.set_keep_alive_timeout(kClientTimeout);

@@ -65,7 +65,7 @@ cameras:
     ${4:-align: never}
 matcher: { ${matcher:-preset: fast, disparities: 8, min_disparity: 8} }
 workers: 1
-lcm: { spread: 0.2, rows_per_message: 48 }
+lcm: { pacing: 0.2, rows_per_message: 48 }
 CONFIG
   stereod --config stereod.yaml >stereod.log 2>&1 &
   stereod_pid=$!

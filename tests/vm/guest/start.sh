@@ -5,19 +5,19 @@ export TERM=dumb PATH=/share/bin:/usr/sbin:/usr/bin:/sbin:/bin
 
 # Runs one in a control group of its own, so that nothing of it outlives it.
 run() {
-  local name=$1 folder=/run/scenario/$1 share=/share/$1 status=0 start=$SECONDS
-  mkdir -p "$folder"
+  local name=$1 directory=/run/scenario/$1 share=/share/$1 status=0 start=$SECONDS
+  mkdir -p "$directory"
   dmesg -C
   {
-    systemd-run --quiet --wait --pipe --collect --working-directory="$folder" --setenv=PATH --setenv=TERM \
+    systemd-run --quiet --wait --pipe --collect --working-directory="$directory" --setenv=PATH --setenv=TERM \
       --property=RuntimeMaxSec="$(cat "$share/seconds")" --property=TimeoutStopSec=5 \
       bash "$share/scenario.sh" </dev/null || status=$?
     [[ $((SECONDS - start)) -lt $(cat "$share/seconds") ]] || echo "--- it did not end in time"
     if [[ $status -ne 0 ]]; then
       echo "--- the kernel said:"
       dmesg | grep -v vhci_hcd | tail -n 30
-      rm -f "$folder"/*.pipe
-      cp -r "$folder" "$share/left-behind"
+      rm -f "$directory"/*.pipe
+      cp -r "$directory" "$share/left-behind"
     fi
     unload
   } >"$share/log" 2>&1

@@ -54,6 +54,6 @@ alike() {
   get_status && awk -v left="$(count_of left brightness)" -v right="$(count_of right brightness)" \
     'BEGIN { exit !(left > 100 && left - right < 10 && right - left < 10) }'
 }
-wait_for 20 alike || { cat status.txt; fail "the pictures are not equally bright"; }
+wait_for 20 alike || { cat status.txt; fail "the images are not equally bright"; }
 stop_stereod
 cat stereod.log

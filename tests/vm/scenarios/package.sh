@@ -32,10 +32,10 @@ cat >/etc/stereod/stereod.yaml <<CONFIG
 cameras:
   source: v4l2
   fps: 10
-  v4l2: {left: "$(by_path 0)", right: "$(by_path 1)", width: 320, height: 240, format: mjpeg, align: never}
+  v4l2: {left: "$(by_path 0)", right: "$(by_path 1)", width: 320, height: 240, format: mjpeg, sync: never}
 matcher: {preset: fast, disparities: 8, min_disparity: 8, window: 5, prefilter: none, median: 0}
 workers: 1
-lcm: {rows_per_message: 48, spread: 0.2}
+lcm: {rows_per_message: 48, pacing: 0.2}
 CONFIG
 
 echo "=== start"

@@ -15,8 +15,8 @@ jitter=$(jitter_us)
 tell left phase 0
 tell right phase 16000
 size=320x240 start_stereod "serial:$left_serial" "serial:$right_serial" mjpeg 'align: start
-    target_skew_ms: 3
-    align_tries: 12'
+    max_sync_skew_ms: 3
+    sync_attempts: 12'
 need_streaming 60
 # With a median skew below 3 ms. Once aligned, it stays so up to twice the target.
 aligned() { get_status && grep -q '^phase alignment  *aligned, skew -\{0,1\}[0-2]\.' status.txt; }

@@ -12,7 +12,7 @@ start() { start_stereod $left $right "$1" "align: never
 
 echo "=== stamps"
 # By itself vivid delivers a frame before the time that it is stamped with.
-start grey
+start gray
 need left reason 'stamped far from now'
 need right reason 'stamped far from now'
 v4l2-ctl -d $left -c timestamp_source=1
@@ -27,7 +27,7 @@ stop_stereod
 
 echo "=== formats"
 shades=
-for format in grey nv12 yu12 yuyv uyvy y10 y16; do
+for format in gray nv12 yu12 yuyv uyvy y10 y16; do
   start $format
   need left brightness '^[1-9]'
   need right brightness '^[1-9]'

@@ -14,7 +14,7 @@ enum class Verb {
   kThaw,      ///< end of that
   kRefuse,    ///< 1 or 0: refuse to start a stream
   kError,     ///< N frames with the error flag
-  kTruncate,  ///< N pictures cut off in the middle
+  kTruncate,  ///< N images cut off in the middle
   kCorrupt,   ///< N JPEGs with rubbish in the middle
   kResize,    ///< N JPEGs that say another height than was agreed
   kPhase,     ///< µs: where in the frame time the next stream begins

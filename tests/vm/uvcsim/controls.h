@@ -1,4 +1,4 @@
-// The simulated camera's controls, and what they do to the picture.
+// The simulated camera's controls, and what they do to the image.
 #pragma once
 
 #include <array>

@@ -83,7 +83,7 @@ void sizes(Bytes& to, std::uint8_t subtype) {
     for (const std::uint32_t time : kFrameTimes) d.u32(time);
     d.end(to);
   }
-  Descriptor{kClassSpecific, 13, 1, 1, 4}.end(to);  // colours as in BT.601
+  Descriptor{kClassSpecific, 13, 1, 1, 4}.end(to);  // colors as in BT.601
 }
 
 void stream_interface(Bytes& to) {

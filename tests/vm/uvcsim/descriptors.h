@@ -7,7 +7,7 @@
 
 namespace stereod::uvcsim {
 
-/// The endpoint that pictures come from.
+/// The endpoint that images come from.
 constexpr std::uint8_t kStreamEndpoint = 1;
 /// The numbers of the interfaces, and of the units that have controls.
 constexpr std::uint8_t kControlInterface = 0, kStreamInterface = 1;

@@ -25,7 +25,7 @@ namespace {
 
 constexpr Size kSize{640, 480};
 
-void write_pgm(const std::string& path, const GreyImage& picture) {
+void write_pgm(const std::string& path, const GrayImage& picture) {
   std::ofstream file(path, std::ios::binary);
   file << "P5\n" << picture.width() << ' ' << picture.height() << "\n255\n";
   for (int y = 0; y < picture.height(); ++y) {
@@ -35,15 +35,15 @@ void write_pgm(const std::string& path, const GreyImage& picture) {
 }
 
 /// pair-0-left.pgm, pair-0-right.pgm and so on.
-void write_pairs(const std::string& folder) {
+void write_pairs(const std::string& directory) {
   for (int frame = 0; frame < kSceneFrames; ++frame) {
-    const std::string start = folder + "/pair-" + std::to_string(frame);
+    const std::string start = directory + "/pair-" + std::to_string(frame);
     write_pgm(start + "-left.pgm", render_scene(Eye::kLeft, kSize, frame));
     write_pgm(start + "-right.pgm", render_scene(Eye::kRight, kSize, frame));
   }
 }
 
-Bytes rgb_bytes(const GreyImage& picture) {
+Bytes rgb_bytes(const GrayImage& picture) {
   Bytes bytes;
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) bytes.insert(bytes.end(), 3, picture.row(y)[x]);
@@ -74,7 +74,7 @@ int open_output(const std::string& device, bool rgb) {
   for (std::size_t side = 0; side < 2; ++side) {
     files[side] = open_output(devices[side], rgb);
     for (int frame = 0; frame < kSceneFrames; ++frame) {
-      const GreyImage picture = render_scene(side == 0 ? Eye::kLeft : Eye::kRight, kSize, frame);
+      const GrayImage picture = render_scene(side == 0 ? Eye::kLeft : Eye::kRight, kSize, frame);
       pictures[side].push_back(rgb ? rgb_bytes(picture) : yuyv_bytes(picture));
     }
   }
@@ -94,16 +94,16 @@ int open_output(const std::string& device, bool rgb) {
 int main_with(int argc, char** argv) {
   CLI::App app("loopback-feed: known stereo pairs through two v4l2loopback devices.");
   std::array<std::string, 2> devices;
-  std::string folder;
+  std::string directory;
   double fps = 5;
   bool rgb = false;
-  app.add_option("--left", devices[0], "device of the left pictures")->required();
-  app.add_option("--right", devices[1], "device of the right pictures")->required();
-  app.add_option("--pairs", folder, "existing folder for the pairs as files")->required();
+  app.add_option("--left", devices[0], "device of the left images")->required();
+  app.add_option("--right", devices[1], "device of the right images")->required();
+  app.add_option("--pairs", directory, "existing directory for the pairs as files")->required();
   app.add_option("--fps", fps, "pairs a second")->check(CLI::Range(0.1, 120.0));
   app.add_flag("--rgb", rgb, "as RGB, not as YUYV");
   CLI11_PARSE(app, argc, argv);
-  write_pairs(folder);
+  write_pairs(directory);
   feed(devices, fps, rgb);
 }
 

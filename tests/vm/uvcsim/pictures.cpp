@@ -40,20 +40,20 @@ void drop_huffman_tables(Bytes& jpeg) {
 
 }  // namespace
 
-Bytes webcam_jpeg(const GreyImage& picture) {
+Bytes webcam_jpeg(const GrayImage& picture) {
   constexpr int kQuality = 85;
   const std::unique_ptr<void, int (*)(void*)> encoder(tjInitCompress(), tjDestroy);
   unsigned char* data = nullptr;
   unsigned long size = 0;
-  // Webcams send colour; grey with empty colour planes is the same to whoever wants brightness.
-  const Bytes colourless(
+  // Webcams send color; gray with empty color planes is the same to whoever wants brightness.
+  const Bytes colorless(
       static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(picture.height()) / 2, 128);
-  const unsigned char* planes[3] = {picture.row(0), colourless.data(), colourless.data()};
+  const unsigned char* planes[3] = {picture.row(0), colorless.data(), colorless.data()};
   const int strides[3] = {static_cast<int>(picture.view().stride()), picture.width() / 2,
                           picture.width() / 2};
   if (tjCompressFromYUVPlanes(encoder.get(), planes, picture.width(), strides, picture.height(), TJSAMP_422,
                               &data, &size, kQuality, 0) != 0) {
-    throw std::runtime_error(std::string("a picture cannot be made into a JPEG: ") +
+    throw std::runtime_error(std::string("a image cannot be made into a JPEG: ") +
                              tjGetErrorStr2(encoder.get()));
   }
   Bytes jpeg(data, data + size);
@@ -71,7 +71,7 @@ const Bytes& Pictures::get(const StreamFormat& format, std::int64_t frame, int g
   const int number = static_cast<int>(frame % kSceneFrames);
   Bytes& bytes = loop_[static_cast<std::size_t>(number)];
   if (bytes.empty()) {
-    const GreyImage picture = render_scene(eye_, format.size, number, gain_64, offset);
+    const GrayImage picture = render_scene(eye_, format.size, number, gain_64, offset);
     bytes = format.encoding == Encoding::kMjpeg ? webcam_jpeg(picture) : yuyv_bytes(picture);
   }
   return bytes;

@@ -1,4 +1,4 @@
-// Pictures of the scene as a camera sends them.
+// Images of the scene as a camera sends them.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace stereod::uvcsim {
 
-/// A JPEG of the picture, without Huffman tables, as many webcams leave them out. Throws std::runtime_error.
-Bytes webcam_jpeg(const GreyImage& picture);
+/// A JPEG of the image, without Huffman tables, as many webcams leave them out. Throws std::runtime_error.
+Bytes webcam_jpeg(const GrayImage& picture);
 
-/// Keeps the pictures of the loop, because making one takes longer than a frame on an emulated processor.
+/// Keeps the images of the loop, because making one takes longer than a frame on an emulated processor.
 class Pictures {
  public:
   explicit Pictures(Eye eye) : eye_(eye) {}

@@ -18,27 +18,27 @@ std::uint8_t scene_brightness(Eye eye, int x, int y, int frame) {
   return static_cast<std::uint8_t>(30 + (hash >> 16) % 190);
 }
 
-GreyImage render_scene(Eye eye, Size size, int frame, int gain_64, int offset) {
+GrayImage render_scene(Eye eye, Size size, int frame, int gain_64, int offset) {
   std::array<std::uint8_t, 256> exposed{};
   for (int value = 0; value < 256; ++value) {
     exposed[static_cast<std::size_t>(value)] =
         static_cast<std::uint8_t>(std::clamp(value * gain_64 / 64 + offset, 0, 255));
   }
-  GreyImage picture(size);
+  GrayImage picture(size);
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) picture.row(y)[x] = exposed[scene_brightness(eye, x, y, frame)];
   }
   return picture;
 }
 
-Bytes yuyv_bytes(const GreyImage& picture) {
-  constexpr std::uint8_t kNoColour = 128;
+Bytes yuyv_bytes(const GrayImage& picture) {
+  constexpr std::uint8_t kNoColor = 128;
   Bytes bytes;
   bytes.reserve(static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(picture.height()) * 2);
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       bytes.push_back(picture.row(y)[x]);
-      bytes.push_back(kNoColour);
+      bytes.push_back(kNoColor);
     }
   }
   return bytes;

@@ -4,14 +4,14 @@
 
 #include <cstdint>
 
-#include "core/image.h"
+#include "core/base/image.h"
 #include "tests/vm/uvcsim/bytes.h"
 
 namespace stereod::uvcsim {
 
 enum class Eye { kLeft, kRight };
 
-/// The pictures repeat after so many frames.
+/// The images repeat after so many frames.
 constexpr int kSceneFrames = 8;
 
 /// Disparity of a row, px: steps of 60 rows with 8, 16, 24 and 32.
@@ -21,11 +21,11 @@ int scene_disparity(int row);
 /// the loop.
 std::uint8_t scene_brightness(Eye eye, int x, int y, int frame);
 
-/// The whole picture as a camera with this exposure shows it: brightness × gain_64 / 64 + offset, within
+/// The whole image as a camera with this exposure shows it: brightness × gain_64 / 64 + offset, within
 /// 0…255.
-GreyImage render_scene(Eye eye, Size size, int frame, int gain_64 = 64, int offset = 0);
+GrayImage render_scene(Eye eye, Size size, int frame, int gain_64 = 64, int offset = 0);
 
-/// The picture as YUYV without colour.
-Bytes yuyv_bytes(const GreyImage& picture);
+/// The image as YUYV without color.
+Bytes yuyv_bytes(const GrayImage& picture);
 
 }  // namespace stereod::uvcsim

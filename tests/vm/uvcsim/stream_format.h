@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/image.h"
+#include "core/base/image.h"
 #include "tests/vm/uvcsim/bytes.h"
 
 namespace stereod::uvcsim {

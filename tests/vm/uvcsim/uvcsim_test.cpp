@@ -137,27 +137,27 @@ TEST(UvcsimScene, FramesDifferAndRepeat) {
 }
 
 TEST(UvcsimPictures, JpegsLackHuffmanTablesAndCanBeReadAllTheSame) {
-  const GreyImage picture = render_scene(Eye::kLeft, {320, 240}, 1);
+  const GrayImage picture = render_scene(Eye::kLeft, {320, 240}, 1);
   const Bytes jpeg = webcam_jpeg(picture);
   for (std::size_t i = 0; i + 1 < jpeg.size() && jpeg[i + 1] != 0xda; ++i) {
     ASSERT_FALSE(jpeg[i] == 0xff && jpeg[i + 1] == 0xc4);
   }
   const std::unique_ptr<void, int (*)(void*)> decoder(tjInitDecompress(), tjDestroy);
-  Bytes grey(320 * 240);
+  Bytes gray(320 * 240);
   const auto decode = [&](const Bytes& bytes) {
-    return tjDecompress2(decoder.get(), bytes.data(), bytes.size(), grey.data(), 320, 320, 240, TJPF_GRAY, 0);
+    return tjDecompress2(decoder.get(), bytes.data(), bytes.size(), gray.data(), 320, 320, 240, TJPF_GRAY, 0);
   };
   ASSERT_EQ(decode(jpeg), 0) << tjGetErrorStr2(decoder.get());
-  EXPECT_NEAR(grey[100 * 320 + 100], picture.row(100)[100], 12);
+  EXPECT_NEAR(gray[100 * 320 + 100], picture.row(100)[100], 12);
 
   Bytes damaged = jpeg;
   corrupt_jpeg(damaged);
   EXPECT_NE(decode(damaged), 0);
   damaged = jpeg;
   change_jpeg_height(damaged, 16);
-  int width = 0, height = 0, subsampling = 0, colours = 0;
+  int width = 0, height = 0, subsampling = 0, colors = 0;
   ASSERT_EQ(tjDecompressHeader3(decoder.get(), damaged.data(), damaged.size(), &width, &height, &subsampling,
-                                &colours),
+                                &colors),
             0);
   EXPECT_EQ(height, 256);
 }

@@ -64,7 +64,7 @@ class Webcam {
   StreamFormat probed_, format_;
   bool streaming_ = false, frozen_ = false, refusing_ = false;
   Damage damage_;
-  std::deque<Waiting> waiting_;  // the kernel's requests for pictures
+  std::deque<Waiting> waiting_;  // the kernel's requests for images
   Bytes picture_;                // of the frame that is being sent
   std::size_t sent_ = 0;
   bool sending_ = false, marked_bad_ = false;

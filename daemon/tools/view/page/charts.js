@@ -25,7 +25,7 @@ function drawHistogram(canvas, values) {
   c.fillText('the last ' + values.length + ' frames', w / 2, h - 4);
 }
 
-// The robot stands at the bottom and looks up; arcs are metres.
+// The robot stands at the bottom and looks up; arcs are meters.
 function drawScan(canvas, scan) {
   const c = canvas.getContext('2d'), w = canvas.width, h = canvas.height;
   c.clearRect(0, 0, w, h);
@@ -60,10 +60,10 @@ function drawScan(canvas, scan) {
   c.fillStyle = '#a7b1bf';
   c.textAlign = 'left';
   const apart = Math.ceil(farthest / 10);
-  for (let metres = apart; metres <= farthest; metres += apart) {
+  for (let meters = apart; meters <= farthest; meters += apart) {
     c.beginPath();
-    c.arc(x0, y0, metres * scale, Math.PI, 2 * Math.PI);
+    c.arc(x0, y0, meters * scale, Math.PI, 2 * Math.PI);
     c.stroke();
-    c.fillText(metres + ' m', x0 + 4, y0 - metres * scale - 4);
+    c.fillText(meters + ' m', x0 + 4, y0 - meters * scale - 4);
   }
 }

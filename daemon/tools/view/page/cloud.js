@@ -23,14 +23,14 @@ class Cloud {
     };
     add(gl.VERTEX_SHADER, `
       attribute vec4 point; varying float shown;
-      uniform vec4 turn; uniform vec3 centre; uniform vec2 lens; uniform float size;
+      uniform vec4 turn; uniform vec3 center; uniform vec2 lens; uniform float size;
       void main() {
-        vec3 p = point.xyz - centre;
+        vec3 p = point.xyz - center;
         p = vec3(turn.x * p.x + turn.y * p.z, p.y, turn.x * p.z - turn.y * p.x);
         p = vec3(p.x, turn.z * p.y - turn.w * p.z, turn.z * p.z + turn.w * p.y);
-        p += vec3(0.0, 0.0, 1.2 * centre.z);
+        p += vec3(0.0, 0.0, 1.2 * center.z);
         gl_Position = vec4(lens.x * p.x, -lens.y * p.y, p.z - 0.2, p.z);
-        gl_PointSize = clamp(size * centre.z / p.z, 1.5, 2.0 * size);
+        gl_PointSize = clamp(size * center.z / p.z, 1.5, 2.0 * size);
         shown = point.w;
       }`);
     add(gl.FRAGMENT_SHADER, 'precision mediump float; varying float shown; void main() { gl_FragColor = vec4(shown * vec3(1.0, 0.97, 0.9), 1.0); }');
@@ -41,7 +41,7 @@ class Cloud {
     gl.enableVertexAttribArray(at);
     gl.vertexAttribPointer(at, 4, gl.FLOAT, false, 0, 0);
     this.uniform = {};
-    for (const name of ['turn', 'centre', 'lens', 'size']) this.uniform[name] = gl.getUniformLocation(program, name);
+    for (const name of ['turn', 'center', 'lens', 'size']) this.uniform[name] = gl.getUniformLocation(program, name);
     gl.enable(gl.DEPTH_TEST);
     gl.clearColor(0.05, 0.06, 0.075, 1);
     canvas.addEventListener('pointermove', event => {
@@ -62,7 +62,7 @@ class Cloud {
     requestAnimationFrame(turn);
   }
 
-  // x, y, z of each point in metres, and how bright it is, 0 to 1.
+  // x, y, z of each point in meters, and how bright it is, 0 to 1.
   show(points) {
     const gl = this.gl;
     if (!gl) return;
@@ -71,7 +71,7 @@ class Cloud {
     for (let i = 2; i < points.length; i += 4 * 31) depths.push(points[i]);
     depths.sort((a, b) => a - b);
     const middle = depths.length ? depths[depths.length >> 1] : 1;
-    this.centre = this.centre ? this.centre + 0.1 * (middle - this.centre) : middle;
+    this.center = this.center ? this.center + 0.1 * (middle - this.center) : middle;
     gl.bufferData(gl.ARRAY_BUFFER, points, gl.DYNAMIC_DRAW);
   }
 
@@ -93,7 +93,7 @@ class Cloud {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     if (!this.count) return;
     gl.uniform4f(this.uniform.turn, Math.cos(this.yaw), Math.sin(this.yaw), Math.cos(this.pitch), Math.sin(this.pitch));
-    gl.uniform3f(this.uniform.centre, 0, 0, this.centre);
+    gl.uniform3f(this.uniform.center, 0, 0, this.center);
     gl.uniform2f(this.uniform.lens, 1.6, 1.6 * this.canvas.width / this.canvas.height);
     gl.uniform1f(this.uniform.size, 1.5 * this.spacing);
     gl.drawArrays(gl.POINTS, 0, this.count);

@@ -1,19 +1,19 @@
 'use strict';
 // Fetches one moment after the other and shows it. The newest is `view.moment`; a person, and the tests, may look.
 const byId = id => document.getElementById(id);
-const view = { moment: null, values: null, paused: false, shown: 0, told: 0, heard: 0, latency: [], skew: [], times: [] };
+const view = { snapshot: null, values: null, paused: false, shown: 0, told: 0, heard: 0, latency: [], skew: [], times: [] };
 const cloud = new Cloud(byId('cloud'));
 let leftImage = null;  // ImageData of the newest left image
 
 // Deep blue, violet, coral, pale yellow: far to near.
 const palette = (() => {
   const stops = [[27, 20, 84], [98, 40, 140], [186, 66, 120], [240, 130, 90], [252, 240, 170]];
-  const colours = new Uint8Array(256 * 3);
+  const colors = new Uint8Array(256 * 3);
   for (let i = 0; i < 256; ++i) {
     const at = i / 255 * (stops.length - 1), k = Math.min(Math.floor(at), stops.length - 2);
-    for (let j = 0; j < 3; ++j) colours[3 * i + j] = stops[k][j] + (at - k) * (stops[k + 1][j] - stops[k][j]);
+    for (let j = 0; j < 3; ++j) colors[3 * i + j] = stops[k][j] + (at - k) * (stops[k + 1][j] - stops[k][j]);
   }
-  return colours;
+  return colors;
 })();
 
 const depthOf = (units, f) => {
@@ -22,12 +22,12 @@ const depthOf = (units, f) => {
 };
 
 // Where a pixel of what is published lies in the rectified image.
-const rectifiedX = (frame, x) => frame.left + x * frame.column_step;
-const rectifiedY = (frame, y) => frame.top + y * frame.row_step;
+const rectifiedX = (frame, x) => frame.left + x * frame.decimation_x;
+const rectifiedY = (frame, y) => frame.top + y * frame.decimation_y;
 
 const publishedSize = frame => [Math.ceil(frame.width / frame.step), Math.ceil(frame.height / frame.step)];
 
-// What moment_codec.cpp's compressed_disparity() packed.
+// What snapshot_codec.cpp's compressed_disparity() packed.
 async function disparities(bytes, frame) {
   const stream = new Response(bytes).body.pipeThrough(new DecompressionStream('deflate'));
   const planes = new Uint8Array(await new Response(stream).arrayBuffer());
@@ -51,13 +51,13 @@ async function pictureOf(jpeg) {
   return createImageBitmap(new Blob([jpeg], { type: 'image/jpeg' }));
 }
 
-async function decode(moment, buffer, at) {
-  const bytes = new Uint8Array(buffer, at, moment.disparity_bytes);
-  const left = new Uint8Array(buffer, at + moment.disparity_bytes, moment.left_bytes);
+async function decode(snapshot, buffer, at) {
+  const bytes = new Uint8Array(buffer, at, snapshot.disparity_bytes);
+  const left = new Uint8Array(buffer, at + snapshot.disparity_bytes, snapshot.left_bytes);
   const [values, picture] = await Promise.all([
-    moment.frame ? disparities(bytes, moment.frame) : null,
-    moment.left_bytes ? pictureOf(left).catch(() => null) : null]);  // anybody may send what is no picture
-  return { moment, values, picture };
+    snapshot.frame ? disparities(bytes, snapshot.frame) : null,
+    snapshot.left_bytes ? pictureOf(left).catch(() => null) : null]);  // anybody may send what is no image
+  return { snapshot, values, picture };
 }
 
 function drawLeft(picture) {
@@ -78,18 +78,18 @@ function drawLeft(picture) {
   leftImage = context.getImageData(0, 0, width, height);
 }
 
-// The colour of every disparity there can be, for one range of them.
-const colours = { least: 0, range: 0, of: new Uint32Array(65536) };
+// The color of every disparity there can be, for one range of them.
+const colors = { least: 0, range: 0, of: new Uint32Array(65536) };
 
-function colourRange(least, range) {
-  if (colours.least === least && colours.range === range) return;
-  const bytes = new Uint8Array(colours.of.buffer);
+function colorRange(least, range) {
+  if (colors.least === least && colors.range === range) return;
+  const bytes = new Uint8Array(colors.of.buffer);
   for (let value = -32768; value < 32768; ++value) {
     const o = 4 * (value & 0xFFFF), c = 3 * Math.min(255, Math.max(0, Math.round((value - least) / range * 255)));
     for (let j = 0; j < 3; ++j) bytes[o + j] = value < 0 ? 34 : palette[c + j];
     bytes[o + 3] = 255;
   }
-  Object.assign(colours, { least, range });
+  Object.assign(colors, { least, range });
 }
 
 let disparityImage = null;
@@ -101,9 +101,9 @@ function drawDisparity(frame, values) {
     canvas.height = height;
     disparityImage = new ImageData(width, height);
   }
-  colourRange(frame.min_disparity * frame.units_per_pixel, Math.max(frame.disparities * frame.units_per_pixel - 1, 1));
+  colorRange(frame.min_disparity * frame.units_per_pixel, Math.max(frame.disparities * frame.units_per_pixel - 1, 1));
   const pixels = new Uint32Array(disparityImage.data.buffer);
-  for (let i = 0; i < values.length; ++i) pixels[i] = colours.of[values[i] & 0xFFFF];
+  for (let i = 0; i < values.length; ++i) pixels[i] = colors.of[values[i] & 0xFFFF];
   canvas.getContext('2d', { willReadFrequently: true }).putImageData(disparityImage, 0, 0);
   const far = frame.min_disparity, near = frame.min_disparity + frame.disparities;
   byId('scale').textContent = frame.camera
@@ -179,7 +179,7 @@ function showStatus(status, counts) {
     both('device', c => c.connected || c.device), both('format', c => c.format),
     both('frames', c => `${c.frames}, ${fixed(c.fps, 1)} /s`), both('brightness', c => fixed(c.brightness, 1)),
     both('gaps, decode errors', c => `${c.sequence_gaps}, ${c.decode_errors}`),
-    both('incomplete, bad stamps', c => `${c.incomplete}, ${c.bad_stamps}`),
+    both('incomplete, bad stamps', c => `${c.incomplete}, ${c.bad_timestamps}`),
     both('superseded, reconnects', c => `${c.superseded}, ${c.reconnects}`),
     both('last fault', c => c.last_fault), both('note', c => c.note),
   ]);
@@ -215,7 +215,7 @@ function showFrame(frame, values) {
 
 // The disparity and depth that the newest frame has at a pixel of what is published; null outside.
 view.at = (x, y) => {
-  const frame = view.moment && view.moment.frame;
+  const frame = view.snapshot && view.snapshot.frame;
   if (!frame || x < 0 || y < 0 || x >= frame.width || y >= frame.height) return null;
   const [width] = publishedSize(frame);
   const value = view.values[Math.floor(y / frame.step) * width + Math.floor(x / frame.step)];
@@ -225,37 +225,37 @@ view.at = (x, y) => {
 
 for (const id of ['left', 'disparity']) {
   byId(id).addEventListener('pointermove', event => {
-    const frame = view.moment && view.moment.frame;
+    const frame = view.snapshot && view.snapshot.frame;
     if (!frame) return;
     const box = event.target.getBoundingClientRect();
     const right = (event.clientX - box.left) / box.width, down = (event.clientY - box.top) / box.height;
     // The left image is all of the rectified image; the disparity may be a part of it.
     view.pointer = id === 'left' && leftImage
-      ? [Math.floor((right * leftImage.width - frame.left) / frame.column_step),
-         Math.floor((down * leftImage.height - frame.top) / frame.row_step)]
+      ? [Math.floor((right * leftImage.width - frame.left) / frame.decimation_x),
+         Math.floor((down * leftImage.height - frame.top) / frame.decimation_y)]
       : [Math.floor(right * frame.width), Math.floor(down * frame.height)];
     showPointer();
   });
 }
 
 function showPointer() {
-  if (!view.pointer || !view.moment || !view.moment.frame) return;
-  const found = view.at(...view.pointer), frame = view.moment.frame;
+  if (!view.pointer || !view.snapshot || !view.snapshot.frame) return;
+  const found = view.at(...view.pointer), frame = view.snapshot.frame;
   const where = `(${rectifiedX(frame, view.pointer[0])}, ${rectifiedY(frame, view.pointer[1])}): `;
   byId('pointer').textContent = where + (found === null ? 'not published' : found.disparity === null ? 'no disparity'
     : `${found.disparity.toFixed(2)} px` + (found.depth === null ? '' : `, ${found.depth.toFixed(3)} m`));
 }
 
-function show({ moment, values, picture }) {
+function show({ snapshot, values, picture }) {
   view.heard = performance.now();
-  view.moment = moment;
+  view.snapshot = snapshot;
   view.values = values;
   drawLeft(picture);
-  if (moment.frame) showFrame(moment.frame, values);
-  if (view.shown++ % 3 === 0 || !moment.frame) drawScan(byId('scan'), moment.scan);
-  if (performance.now() - view.told > 250 || !moment.frame) {  // faster than that nobody reads
+  if (snapshot.frame) showFrame(snapshot.frame, values);
+  if (view.shown++ % 3 === 0 || !snapshot.frame) drawScan(byId('scan'), snapshot.scan);
+  if (performance.now() - view.told > 250 || !snapshot.frame) {  // faster than that nobody reads
     view.told = performance.now();
-    showStatus(moment.status, moment.counts);
+    showStatus(snapshot.status, snapshot.counts);
   }
   showPointer();
 }
@@ -276,7 +276,7 @@ function download(name, blob) {
 
 // The disparities in px of the rectified image as PFM (infinite where there is none), as stereo-tap save writes them.
 view.pfm = () => {
-  const [width, height] = publishedSize(view.moment.frame), unitsPerPixel = view.moment.frame.units_per_pixel;
+  const [width, height] = publishedSize(view.snapshot.frame), unitsPerPixel = view.snapshot.frame.units_per_pixel;
   const head = new TextEncoder().encode(`Pf\n${width} ${height}\n-1\n`);
   const body = new Float32Array(width * height);
   for (let y = 0; y < height; ++y) {
@@ -289,8 +289,8 @@ view.pfm = () => {
 };
 
 byId('save').addEventListener('click', () => {
-  if (!view.moment || !view.moment.frame) return;
-  const name = 'frame-' + String(view.moment.frame.frame).padStart(6, '0');
+  if (!view.snapshot || !view.snapshot.frame) return;
+  const name = 'frame-' + String(view.snapshot.frame.frame).padStart(6, '0');
   download(name + '.pfm', view.pfm());
   byId('disparity').toBlob(blob => download(name + '.png', blob));
   if (leftImage) byId('left').toBlob(blob => download(name + '-left.png', blob));
@@ -299,7 +299,7 @@ byId('save').addEventListener('click', () => {
 // A stereod that has ended says nothing of it.
 setInterval(() => {
   const seconds = Math.round((performance.now() - view.heard) / 1000);
-  if (!view.moment || view.paused || seconds < 3 || byId('state').textContent.startsWith('connection')) return;
+  if (!view.snapshot || view.paused || seconds < 3 || byId('state').textContent.startsWith('connection')) return;
   byId('state').textContent = `nothing from stereod for ${seconds} s`;
   byId('state').className = 'state';
   byId('fps').textContent = '–';
@@ -310,7 +310,7 @@ const pause = ms => new Promise(done => setTimeout(done, ms));
 async function run() {
   let after = 0, coming = null;   // the answer on its way
   let last = Promise.resolve();   // the moment before, until it is shown; one is decoded beside it
-  const ask = () => fetch(`moment?after=${after}&step=${byId('half').checked ? 2 : 1}`, { cache: 'no-store' });
+  const ask = () => fetch(`snapshot?after=${after}&step=${byId('half').checked ? 2 : 1}`, { cache: 'no-store' });
   for (;;) {
     if (view.paused) {
       coming = null;
@@ -323,13 +323,13 @@ async function run() {
       if (answer.status === 205) after = 0;
       if (answer.status !== 200) {
         if (answer.status !== 204) await pause(500);
-        if (!view.moment) byId('state').textContent = 'nothing from stereod yet';
+        if (!view.snapshot) byId('state').textContent = 'nothing from stereod yet';
         continue;
       }
-      const buffer = await answer.arrayBuffer(), [moment, at] = momentOf(buffer);
-      after = moment.number;
+      const buffer = await answer.arrayBuffer(), [snapshot, at] = momentOf(buffer);
+      after = snapshot.number;
       coming = ask();
-      const shown = Promise.all([decode(moment, buffer, at), last]).then(([decoded]) => view.paused || show(decoded));
+      const shown = Promise.all([decode(snapshot, buffer, at), last]).then(([decoded]) => view.paused || show(decoded));
       for (const later of [coming, shown]) later.catch(() => {});  // heard of when it is waited for
       await last;
       last = shown;

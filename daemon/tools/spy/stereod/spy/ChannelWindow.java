@@ -1,4 +1,4 @@
-// A window on one channel: a picture for disparity rows and images, the fields with their charts for anything else.
+// A window on one channel: a image for disparity rows and images, the fields with their charts for anything else.
 package stereod.spy;
 
 import java.awt.image.BufferedImage;
@@ -127,7 +127,7 @@ class ChannelWindow implements LCMSubscriber {
         });
     }
 
-    /** Grey or JPEG; null for anything else. */
+    /** Gray or JPEG; null for anything else. */
     static BufferedImage pictureOf(image_t m) throws IOException {
         if (m.width <= 0 || m.width > LARGEST_SIDE || m.height <= 0 || m.height > LARGEST_SIDE) return null;
         if (m.pixelformat == MJPEG) return ImageIO.read(new ByteArrayInputStream(m.data));

@@ -1,4 +1,4 @@
-// A picture with a line of text below it.
+// A image with a line of text below it.
 package stereod.spy;
 
 import java.awt.Color;

@@ -1,4 +1,4 @@
-// Disparity rows become a picture in colours. Nothing that a message says of itself is believed unless it agrees with
+// Disparity rows become a image in colors. Nothing that a message says of itself is believed unless it agrees with
 // the rest of it.
 package stereod.spy;
 
@@ -21,7 +21,7 @@ class RowsPicture {
             && m.row_count > 0 && m.row_count <= m.height - m.first_row && m.disparities > 0 && m.scale > 0
             && (m.bytes_per_value == 1 || m.bytes_per_value == 2)
             && m.data.length == m.width * m.row_count * m.bytes_per_value
-            && isSaneAxis(m.left, m.column_step, m.width) && isSaneAxis(m.top, m.row_step, m.height)
+            && isSaneAxis(m.left, m.decimation_x, m.width) && isSaneAxis(m.top, m.decimation_y, m.height)
             && (m.filled.length == 0 || m.filled.length == (m.width + 7) / 8 * m.row_count);
     }
 
@@ -63,19 +63,19 @@ class RowsPicture {
         for (int i = 0; i < m.width * m.row_count; i++) {
             int value = m.bytes_per_value == 1 ? m.data[i] & 0xFF : m.data[2 * i] & 0xFF | (m.data[2 * i + 1] & 0xFF) << 8;
             boolean measured = value != m.invalid && !isFilled(m, i % m.width, i / m.width);
-            int colour = measured ? colourOf((value - least) / range) : UNMATCHED;
-            picture.setRGB(i % m.width, m.first_row + i / m.width, colour);
+            int color = measured ? colorOf((value - least) / range) : UNMATCHED;
+            picture.setRGB(i % m.width, m.first_row + i / m.width, color);
         }
     }
 
     /** From 0, far, to 1, near. */
-    static int colourOf(double nearness) {
+    static int colorOf(double nearness) {
         double at = Math.max(0, Math.min(nearness, 1)) * (STOPS.length - 1);
         int k = Math.min((int) at, STOPS.length - 2);
-        int colour = 0;
+        int color = 0;
         for (int j = 0; j < 3; j++) {
-            colour = colour << 8 | (int) Math.round(STOPS[k][j] + (at - k) * (STOPS[k + 1][j] - STOPS[k][j]));
+            color = color << 8 | (int) Math.round(STOPS[k][j] + (at - k) * (STOPS[k + 1][j] - STOPS[k][j]));
         }
-        return colour;
+        return color;
     }
 }

@@ -1,4 +1,4 @@
-// What lcm-spy finds by itself: a right click on a channel with disparity rows or images offers a picture of it.
+// What lcm-spy finds by itself: a right click on a channel with disparity rows or images offers a image of it.
 package stereod.spy;
 
 import java.awt.event.ActionEvent;
@@ -18,7 +18,7 @@ public class StereodPlugin implements SpyPlugin {
 
     @Override
     public Action getAction(JDesktopPane desktop, ChannelData data) {
-        return new AbstractAction("Picture of " + data.name) {
+        return new AbstractAction("Image of " + data.name) {
             @Override
             public void actionPerformed(ActionEvent event) {
                 new ChannelWindow(data.name, 700, 40);

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "calib/interop/interop.h"
+#include "core/geometry/stereo_rectification.h"
+#include "daemon/config/yaml_section.h"
+
+namespace stereod {
+
+namespace {
+
+CameraModel read_camera(YamlSection section) {
+  CameraModel m;
+  const std::string model = section.required_text("camera_model");
+  if (model != "pinhole") section.fail("camera_model", "found '" + model + "', allowed is pinhole");
+  const std::string lens = section.required_text("distortion_model");
+  if (lens != "radtan" && lens != "equidistant") {
+    section.fail("distortion_model", "found '" + lens + "', allowed are radtan and equidistant");
+  }
+  m.lens = lens == "equidistant" ? LensModel::kFisheye : LensModel::kPinhole;
+  const std::vector<double> size = section.required_numbers("resolution", {2});
+  for (const double side : size) {
+    if (!(side >= 1 && side <= kMaxWidth_px && side == std::floor(side))) {
+      section.fail("resolution", "allowed are two whole numbers from 1 to " + std::to_string(kMaxWidth_px));
+    }
+  }
+  m.image = {static_cast<int>(size[0]), static_cast<int>(size[1])};
+  const std::vector<double> k = section.required_numbers("intrinsics", {4});
+  m.fx = k[0], m.fy = k[1], m.cx = k[2], m.cy = k[3];
+  set_distortion(m, section.required_numbers("distortion_coeffs", {4}));
+  return m;
+}
+
+// cam1.T_cn_cnm1: four rows of four numbers, from cam0's coordinates to cam1's.
+StereoPose read_pose(const YAML::Node& root, const std::filesystem::path& file) {
+  StereoPose pose;
+  try {
+    const YAML::Node rows = root["cam1"]["T_cn_cnm1"];
+    double t[3] = {0, 0, 0};
+    for (std::size_t row = 0; row < 3; ++row) {
+      if (rows.size() != 4 || rows[row].size() != 4) throw YAML::Exception(rows.Mark(), "");
+      for (std::size_t column = 0; column < 3; ++column) {
+        pose.rotation.m[3 * row + column] = rows[row][column].as<double>();
+      }
+      t[row] = rows[row][3].as<double>();
+    }
+    pose.translation_m = {t[0], t[1], t[2]};
+    const double last[4] = {0, 0, 0, 1};
+    for (std::size_t column = 0; column < 4; ++column) {
+      if (rows[3].size() != 4 || rows[3][column].as<double>() != last[column]) {
+        throw FileError(file.string() + ": cam1.T_cn_cnm1: its last row must be 0, 0, 0, 1");
+      }
+    }
+  } catch (const YAML::Exception&) {
+    throw FileError(file.string() + ": cam1.T_cn_cnm1: four rows of four numbers are needed");
+  }
+  const auto finite = [](double number) { return std::isfinite(number); };
+  const Vector3& t = pose.translation_m;
+  if (!std::all_of(pose.rotation.m.begin(), pose.rotation.m.end(), finite) || !finite(t.x) || !finite(t.y) ||
+      !finite(t.z)) {
+    throw FileError(file.string() + ": cam1.T_cn_cnm1: allowed are finite numbers");
+  }
+  pose.rotation = exact_rotation(pose.rotation);
+  if (!is_rotation(pose.rotation)) {
+    throw FileError(file.string() + ": cam1.T_cn_cnm1: its first three columns are no rotation");
+  }
+  return pose;
+}
+
+}  // namespace
+
+Calibration read_kalibr(const std::filesystem::path& camchain) {
+  const YAML::Node node = load_yaml_map(camchain);
+  YamlSection root(camchain, node);
+  const CameraModel left = read_camera(root.required_section("cam0"));
+  const CameraModel right = read_camera(root.required_section("cam1"));
+  refuse_absurd(left, "left", camchain);
+  refuse_absurd(right, "right", camchain);
+  if (left.image != right.image) {
+    throw FileError(camchain.string() + ": cam0 and cam1 have different resolutions; they must be the same");
+  }
+  try {
+    return sound_or_refused(rectified_pair(left, right, read_pose(node, camchain)), camchain);
+  } catch (const std::invalid_argument& refused) {
+    throw FileError(camchain.string() + ": " + refused.what());
+  }
+}
+
+}  // namespace stereod

@@ -1,0 +1,8 @@
+#include "core/match/block/kernels/kernel-inl.h"
+#include "core/match/block/kernels/vector_sse.h"
+
+namespace stereod::kernels {
+
+extern constexpr Kernel kSse41Kernel = make_kernel<VectorSse<true>>();
+
+}  // namespace stereod::kernels

@@ -1,0 +1,8 @@
+#include "core/match/block/kernels/kernel-inl.h"
+#include "core/match/block/kernels/vector_sse.h"
+
+namespace stereod::kernels {
+
+extern constexpr Kernel kSsse3Kernel = make_kernel<VectorSse<false>>();
+
+}  // namespace stereod::kernels

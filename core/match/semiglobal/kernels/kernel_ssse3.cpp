@@ -1,0 +1,8 @@
+#include "core/match/block/kernels/vector_sse.h"
+#include "core/match/semiglobal/kernels/kernel-inl.h"
+
+namespace stereod::semiglobal {
+
+extern constexpr Kernel kSsse3Kernel = make_kernel<kernels::VectorSse<false>>();
+
+}  // namespace stereod::semiglobal

@@ -1,0 +1,29 @@
+#include "core/match/semiglobal/subsampled_disparity.h"
+
+#include <algorithm>
+
+#include "core/base/simd_i16x8.h"
+
+namespace stereod::semiglobal {
+
+void fill_grid_row(GridValue* row, int width) noexcept {
+  for (int x = 0; x < width;) {
+    if (x % kI16Lanes == 0 && x + kI16Lanes <= width && !any_of(load_i16x8(row + x) < I16x8{})) {
+      x += kI16Lanes;
+      continue;
+    }
+    if (row[x] >= 0) {
+      ++x;
+      continue;
+    }
+    int end = x;
+    while (end < width && row[end] < 0) ++end;
+    const GridValue left = x > 0 ? row[x - 1] : kNone;
+    const GridValue right = end < width ? row[end] : kNone;
+    const GridValue value = left < 0 ? right : right < 0 ? left : std::min(left, right);
+    std::fill(row + x, row + end, static_cast<GridValue>(value | 1));
+    x = end;
+  }
+}
+
+}  // namespace stereod::semiglobal

@@ -1,0 +1,103 @@
+#include "daemon/capture/synthetic/synthetic_source.h"
+
+#include <algorithm>
+#include <numeric>
+#include <thread>
+#include <utility>
+
+#include "core/base/worker_pool.h"
+#include "daemon/capture/synthetic/synthetic_scene.h"
+
+namespace stereod {
+
+SyntheticSource::SyntheticSource(std::shared_ptr<Loop> loop, int camera)
+    : loop_(std::move(loop)), camera_(camera), pictures_(loop_->pictures[camera]) {}
+
+FrameLease SyntheticSource::next(std::chrono::milliseconds timeout) noexcept {
+  const std::optional<FrameTick> tick = loop_->clock.wait(camera_, timeout);
+  if (!tick) return {};
+  streaming_ = true;
+  const auto index = loop_->order[static_cast<std::size_t>(tick->number) % loop_->order.size()];
+  const ImageView<const std::uint8_t> picture = pictures_[index].view();
+  Frame frame;
+  frame.luma = {picture.row(0), picture.size(), picture.stride(), 1};
+  frame.captured_ns = tick->captured_ns;
+  frame.sequence = static_cast<std::uint32_t>(tick->number);
+  return {frame, *this, static_cast<int>(index)};
+}
+
+void SyntheticSource::give_back(int) noexcept { loop_->clock.give_back(camera_); }
+
+SourceState SyntheticSource::state() const noexcept {
+  return streaming_ ? SourceState::kStreaming : SourceState::kWaiting;
+}
+
+namespace {
+
+// Renders image 0 … count - 1 of both cameras by `render(camera, image)`.
+template <typename Render>
+void render_all(SyntheticSource::Loop& loop, int count, Render&& render) {
+  for (std::vector<GrayImage>& pictures : loop.pictures) pictures.resize(static_cast<std::size_t>(count));
+  WorkerPool pool(static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 4U)));
+  pool.run(count, [&](int picture, int) {
+    for (const int camera : {0, 1}) {
+      loop.pictures[camera][static_cast<std::size_t>(picture)] = render(camera, picture);
+    }
+  });
+}
+
+Calibration render_room(SyntheticSource::Loop& loop, const SyntheticOptions& options) {
+  const SyntheticScene scene(options.size, options.frames);
+  render_all(loop, options.frames, [&](int camera, int frame) {
+    return camera == 0 ? scene.render_left(frame) : scene.render_right(frame);
+  });
+  loop.order.resize(static_cast<std::size_t>(options.frames));
+  std::iota(loop.order.begin(), loop.order.end(), 0);
+  return scene.calibration();
+}
+
+// No board; then for each place one image on the way there and one at it.
+Calibration render_board(SyntheticSource::Loop& loop, const SyntheticOptions& options) {
+  constexpr int kImages = 1 + 2 * kBoardPlaces;
+  constexpr double kBaseline_m = 0.06;
+  const SyntheticScene scene(options.size, kImages, kBaseline_m, false);
+  const double focal = scene.calibration().left.projection.fx;
+  // A little less than is seen: the cameras do not look in quite the same direction.
+  const double half_width = 0.4 * options.size.width / focal,
+               half_height = 0.47 * options.size.height / focal;
+  const std::vector<BoardPlace> places =
+      varied_places(kPracticeBoard, half_width, half_height, kBaseline_m, kBoardPlaces);
+  render_all(loop, kImages, [&](int camera, int picture) {
+    const auto render = [&](const SyntheticBoard* board) {
+      return camera == 0 ? scene.render_left(picture, board) : scene.render_right(picture, board);
+    };
+    if (picture == 0) return render(nullptr);
+    const auto number = static_cast<std::size_t>(picture - 1) / 2;
+    BoardPlace place = places[number];
+    if (picture % 2 == 1) {
+      const Vector3 &from = places[number > 0 ? number - 1 : places.size() - 1].origin_m,
+                    &to = place.origin_m;
+      place.origin_m = {(from.x + to.x) / 2, (from.y + to.y) / 2, (from.z + to.z) / 2};
+    }
+    const SyntheticBoard board(kPracticeBoard, place, focal);
+    return render(&board);
+  });
+  const std::size_t passing = 2,
+                    resting = options.fps > 0 ? static_cast<std::size_t>(2 * options.fps) + 1 : 4;
+  for (std::size_t picture = 0; picture < kImages; ++picture) {
+    loop.order.insert(loop.order.end(), picture % 2 == 1 ? passing : resting, picture);
+  }
+  return scene.calibration();
+}
+
+}  // namespace
+
+SyntheticPair make_synthetic_pair(const SyntheticOptions& options) {
+  const auto loop = std::shared_ptr<SyntheticSource::Loop>(new SyntheticSource::Loop{
+      {}, {}, FrameClock(options.fps, {std::chrono::nanoseconds(0), options.skew})});
+  Calibration calibration = options.board ? render_board(*loop, options) : render_room(*loop, options);
+  return {std::make_unique<SyntheticSource>(loop, 0), std::make_unique<SyntheticSource>(loop, 1),
+          std::move(calibration)};
+}
+
+}  // namespace stereod

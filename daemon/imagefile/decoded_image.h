@@ -1,0 +1,55 @@
+// The common ground of the image formats.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "core/base/image.h"
+
+namespace stereod {
+
+/// A image as its file holds it, before it becomes the image that somebody wants.
+struct DecodedImage {
+  Size size;
+  int channels = 1;                   ///< 1: gray, 3: red, green, blue
+  int max_value = 255;                ///< the sample that means full brightness, 1…65535
+  int sample_bytes = 1;               ///< 1, or 2 in the byte order of this machine
+  std::vector<std::uint8_t> samples;  ///< row by row without padding
+
+  DecodedImage(Size picture_size, int channel_count, int largest_value)
+      : size(picture_size),
+        channels(channel_count),
+        max_value(largest_value),
+        sample_bytes(largest_value > 255 ? 2 : 1),
+        samples(static_cast<std::size_t>(size.height) * row_bytes()) {}
+
+  std::size_t row_bytes() const {
+    return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels * sample_bytes);
+  }
+  /// Sample number `index`, counted from the top left.
+  int sample(std::size_t index) const {
+    if (sample_bytes == 1) return samples[index];
+    std::uint16_t value = 0;
+    std::memcpy(&value, &samples[2 * index], 2);
+    return value;
+  }
+  void set_sample(std::size_t index, int value) {
+    if (sample_bytes == 1) {
+      samples[index] = static_cast<std::uint8_t>(value);
+    } else {
+      const auto wide = static_cast<std::uint16_t>(value);
+      std::memcpy(&samples[2 * index], &wide, 2);
+    }
+  }
+};
+
+/// The longest side, in pixels, of a image that is read or written.
+inline constexpr int kMaxImageFileSide = 16384;
+
+/// Throws FileError if a image that claims to be this large is too large, or empty.
+void check_picture_size(const std::string& file, long long width, long long height);
+
+}  // namespace stereod
