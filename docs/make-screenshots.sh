@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Makes the screenshots in docs/images anew, from build/release: stereo-view in headless Chromium, stereod-spy on a
-# virtual screen, and what stereo-tap prints. Wants the Debian packages chromium, xvfb, xdotool, imagemagick,
-# fonts-dejavu-core and those of stereod-spy, and some minutes in which the machine does little else.
+# SPDX-License-Identifier: BSD-3-Clause
+# Makes the screenshots in docs/images from build/release: stereo-view in headless Chromium, stereod-spy on a virtual screen,
+# and the output of stereo-tap. Needs the Debian packages chromium, xvfb, xdotool, imagemagick, fonts-dejavu-core and those of
+# stereod-spy, and an idle machine for some minutes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 if [[ ${1:-} != --inside ]]; then exec toolchain/own-network.sh bash docs/make-screenshots.sh --inside; fi
@@ -17,7 +18,7 @@ clean_up() {
 }
 trap clean_up EXIT
 
-# At most 64 colors and 1000 px wide: for reading, not for looking at pixels.
+# keep FILE NAME: reduces an image to 64 colors and 1000 px width, enough to read it.
 keep() { convert "$1" -resize '1000x>' -colors 64 -strip "PNG8:docs/images/$2"; }
 
 STEREO_SCREENSHOTS=$work $bin/test_view --gtest_filter='BrowserTest.ShowsWhatIsOnTheWire'
@@ -30,7 +31,7 @@ export LCM_DEFAULT_URL='udpm://239.255.76.67:17670?ttl=0'
 $bin/stereod --config etc/demo.yaml 2>/dev/null &
 children+=($!)
 sleep 10
-# The terminal's text, drawn: a terminal emulator cannot be had in a namespace of its own.
+# Draws the terminal's text, because no terminal emulator runs in a network namespace of its own.
 status=$($bin/stereo-tap status --once | sed 's/\\/\\\\/g; s/%/%%/g')  # % is convert's own
 convert -size 760x640 xc:'#14171c' -fill '#e8ebef' -font DejaVu-Sans-Mono -pointsize 15 -annotate +14+26 "$status" \
   "$work/stereo-tap.png"

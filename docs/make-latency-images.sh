@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Draws docs/images/frame-life*.svg anew, from build/release: one frame's life, measured. Wants an idle machine.
+# SPDX-License-Identifier: BSD-3-Clause
+# Draws docs/images/frame-life*.svg from build/release: one frame's life, measured. Needs an idle machine.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-if [[ ${1:-} != --inside ]]; then exec toolchain/own-network.sh bash docs/make-latency-pictures.sh --inside; fi
+if [[ ${1:-} != --inside ]]; then exec toolchain/own-network.sh bash docs/make-latency-images.sh --inside; fi
 
 bin=build/release/bin
 work=$(mktemp -d)
@@ -15,8 +16,8 @@ clean_up() {
 trap clean_up EXIT
 export LCM_DEFAULT_URL='udpm://239.255.76.67:17674?ttl=0'
 
-# image FILE TITLE SETTINGS
-picture() {
+# draw FILE TITLE SETTINGS
+draw() {
   printf 'cameras: {source: synthetic, fps: 30}\n%s\n' "$3" >"$work/stereod.yaml"
   $bin/stereod --config "$work/stereod.yaml" 2>/dev/null &
   daemon=$!
@@ -26,5 +27,5 @@ picture() {
   wait "$daemon" || true
   daemon=
 }
-picture frame-life.svg 'The defaults: 640×480, preset robust, two workers, spread 0.3' ''
-picture frame-life-early.svg 'Spread 0: rows leave as they are matched' 'lcm: {pacing: 0}'
+draw frame-life.svg 'Defaults: 640×480, preset robust, two workers, pacing 0.3' ''
+draw frame-life-early.svg 'Pacing 0: rows leave as they are matched' 'lcm: {pacing: 0}'
