@@ -3,20 +3,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <numeric>
 #include <sstream>
 #include <system_error>
 
+#include "core/base/text.h"
+#include "daemon/base/file.h"
+
 namespace stereod {
 namespace {
-
-std::string plain(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 template <typename Number>
 std::optional<Number> parse_number(const std::string& text) {
@@ -38,22 +34,12 @@ std::string kind_of(const YAML::Node& node) {
 
 YAML::Node load_yaml_map(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) {
-    if (!error) throw FileError(file.string() + ": there is no such file");
-    throw FileError(
-        file.string() + ": cannot be reached (" + error.message() +
-        "); stereod must be allowed into its directory, and as a service it is kept out of home directories");
+  if (!std::filesystem::exists(file, error) && error) {
+    throw FileError(file.string() + ": cannot be reached (" + error.message() +
+                    "); give stereod access to its directory (as a service it has none to home directories)");
   }
-  if (std::filesystem::is_directory(file, error))
-    throw FileError(file.string() + ": this is a directory, not a file");
-  constexpr std::size_t kMaxFile = 1'000'000;  // bytes; a longer one is no configuration
-  std::ifstream in(file);
-  std::string text(kMaxFile + 1, '\0');
-  if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!in && !in.eof()) throw FileError(file.string() + ": cannot be read; check its permissions");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kMaxFile)
-    throw FileError(file.string() + ": is longer than a megabyte; this is no configuration");
+  constexpr std::size_t kMaxYamlBytes = 1'000'000;
+  const std::string text = read_text_file(file, kMaxYamlBytes);
   try {
     YAML::Node root = YAML::Load(text);
     if (!root.IsMap()) {
@@ -145,7 +131,8 @@ double YamlSection::number(const std::string& key, double otherwise, double leas
   if (!found) return otherwise;
   const auto value = parse_number<double>(*found);
   if (!value || !std::isfinite(*value) || *value < least || *value > most) {
-    fail(key, "found '" + *found + "', allowed are numbers from " + plain(least) + " to " + plain(most));
+    fail(key, "found '" + *found + "', allowed are numbers from " + significant(least) + " to " +
+                  significant(most));
   }
   return *value;
 }

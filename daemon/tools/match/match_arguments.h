@@ -3,19 +3,14 @@
 
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <variant>
 
 #include "core/match/options.h"
+#include "daemon/base/usage_error.h"
 #include "daemon/config/config.h"
 
 namespace stereod {
-
-/// A command line that makes no sense; what() is one sentence.
-class UsageError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 struct RectifiedFiles {
   std::filesystem::path left;

@@ -179,7 +179,7 @@ TEST_F(CalibrationFile, NumbersThatDoNotFitTogetherAreNamed) {
 }
 
 TEST_F(CalibrationFile, WhatIsNoCalibrationAtAllIsSaid) {
-  EXPECT_EQ(complaint_of(directory_ / "none.yaml"), "none.yaml: there is no such file");
+  EXPECT_EQ(complaint_of(directory_ / "none.yaml"), "none.yaml: the file does not exist");
   EXPECT_NE(complaint_of(directory_), "none");
   const std::string broken = complaint_about("image_width: 640\nleft: [1, 2\nright: }\n");
   EXPECT_TRUE(broken.starts_with("calibration.yaml:3: not valid YAML: ")) << broken;

@@ -373,9 +373,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(ConfigFile, MissingFileAndFolderAreToldApart) {
   EXPECT_EQ(file_error_of([] { read_config("/nowhere/stereod.yaml"); }),
-            "/nowhere/stereod.yaml: there is no such file");
+            "/nowhere/stereod.yaml: the file does not exist");
   EXPECT_EQ(file_error_of([&] { read_config(directory_.path()); }),
-            directory_.path().string() + ": this is a directory, not a file");
+            directory_.path().string() + ": is a directory; a file is needed");
 }
 
 // Any reason but that there is none would do; a link to itself is one that root cannot pass either.
