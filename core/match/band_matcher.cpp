@@ -14,7 +14,7 @@
 namespace stereod {
 
 std::unique_ptr<BandMatcher> make_band_matcher(const MatcherOptions& options, Size image) {
-  if (const auto problem = problem_with(options)) throw std::invalid_argument(*problem);
+  if (const auto problem = problem_with(options)) throw std::invalid_argument(to_string(*problem));
   constexpr int kMaxSide = std::numeric_limits<std::int16_t>::max();
   if (std::min(image.width, image.height) < 1 || std::max(image.width, image.height) > kMaxSide) {
     throw std::invalid_argument("an image to match has 1 to " + std::to_string(kMaxSide) +

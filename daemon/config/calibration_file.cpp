@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/config/calibration_file.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ CameraCalibration read_camera(YamlSection section, Size image) {
   camera.image = image;
   const std::string model = section.required_text("model");
   if (model != "pinhole" && model != "fisheye") {
-    section.fail("model", "found '" + model + "', allowed are 'pinhole' and 'fisheye'");
+    section.fail("model", "found '" + model + "', allowed pinhole, fisheye");
   }
   camera.lens = model == "fisheye" ? LensModel::kFisheye : LensModel::kPinhole;
   camera.fx = focal_length(section, "fx");
@@ -100,7 +101,7 @@ void write_camera(std::ostream& out, const char* name, const CameraCalibration& 
 Calibration read_calibration(const std::filesystem::path& file) {
   YamlSection root(file, load_yaml_map(file));
   Calibration result;
-  root.text("id", "");  // known, but not believed
+  root.text("id");  // recomputed from the numbers
   result.image.width = root.required_integer("image_width", 1, kMaxImageFileSide);
   result.image.height = root.required_integer("image_height", 1, kMaxImageFileSide);
   result.baseline_m = root.required_number("baseline_m", kMinBaseline_m, kMaxBaseline_m);
@@ -132,7 +133,7 @@ std::string calibration_text(const Calibration& calibration) {
   out << "  pairs_used: " << quality.pairs_used << "\n";
   out << "  rms_px: " << exact(quality.rms_px) << "  # reprojection error, pixels\n";
   out << "  epipolar_error_px: " << exact(quality.epipolar_error_px)
-      << "  # rows a point is apart in the rectified images, mean, pixels\n";
+      << "  # mean epipolar error in the rectified images, pixels\n";
   return out.str();
 }
 

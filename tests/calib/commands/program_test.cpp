@@ -127,7 +127,7 @@ TEST_F(Program, BadInputIsOneSentenceAndTouchesNothing) {
       {{"solve", pairs_->path().string(), "--square", "25mm", "-o", file("none/c.yaml")},
        "the directory to write to does not exist"},
       {{"solve", pairs_->path().string(), "--square", "25mm", "--sqare", "1"}, "--sqare"},
-      {{"check", file("c.yaml"), pairs_->path().string()}, "expected a map"},
+      {{"check", file("c.yaml"), pairs_->path().string()}, "allowed a map of keys and values"},
       {{"check", file("none.yaml"), pairs_->path().string()}, "the file does not exist"},
       {{"check", file("good.yaml"), pairs_->path().string(), "--daemon"}, "not both"},
       {{"check", file("good.yaml"), "--daemon", "--config", "x.yaml"}, "say where the images come from"},
