@@ -3,12 +3,9 @@
 
 #include <stdexcept>
 
-namespace stereod {
+#include "daemon/base/usage_error.h"
 
-/// A command line that makes no sense; what() is one sentence.
-class UsageError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+namespace stereod {
 
 /// Images that cannot be calibrated or checked with; what() is one sentence that says what to do.
 class CalibrationError : public std::runtime_error {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "calib/base/errors.h"
+#include "core/base/text.h"
 #include "daemon/base/file_error.h"
 #include "daemon/base/progress.h"
 #include "daemon/capture/replay/recording.h"
@@ -13,8 +14,6 @@ namespace stereod {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string in_words(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
 
 GrayImage part_of(const GrayImage& picture, int first_column, int width) {
   GrayImage result(width, picture.height());
@@ -56,8 +55,8 @@ void check_usage(const PairInput& input) {
 
 void require_size(const std::string& file, Size found, const ImagePair& first) {
   if (found == first.left.size()) return;
-  throw FileError(file + ": has " + in_words(found) + " pixels, but the first left image has " +
-                  in_words(first.left.size()) +
+  throw FileError(file + ": has " + to_string(found) + " pixels, but the first left image has " +
+                  to_string(first.left.size()) +
                   "; all images must have the size that the cameras will run at");
 }
 

@@ -5,7 +5,7 @@
 #include "calib/base/errors.h"
 #include "calib/board/board_sheet.h"
 #include "calib/commands/commands.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 
 namespace stereod {
 

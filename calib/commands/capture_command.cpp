@@ -17,8 +17,8 @@
 #include "calib/live/capture_guide.h"
 #include "calib/live/live_page.h"
 #include "calib/live/live_state.h"
+#include "daemon/base/file.h"
 #include "daemon/base/file_error.h"
-#include "daemon/base/text_file.h"
 #include "daemon/imagefile/write_image.h"
 
 namespace stereod {

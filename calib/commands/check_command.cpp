@@ -17,6 +17,7 @@
 #include "calib/quality/verdict.h"
 #include "calib/report/html.h"
 #include "calib/solve/camera_solver.h"
+#include "core/base/text.h"
 #include "daemon/base/progress.h"
 #include "daemon/config/calibration_file.h"
 
@@ -166,10 +167,9 @@ int run(const Flags& flags) {
   const std::vector<ImagePair> pictures = pairs_of(flags);
   const Size size = pictures.front().left.size();
   if (size != calibration.image) {
-    throw CalibrationError(
-        "the images are " + std::to_string(size.width) + "×" + std::to_string(size.height) +
-        ", the calibration is for " + std::to_string(calibration.image.width) + "×" +
-        std::to_string(calibration.image.height) + "; take images of that size, or calibrate at this one");
+    throw CalibrationError("the images are " + to_string(size) + ", the calibration is for " +
+                           to_string(calibration.image) +
+                           "; take images of that size, or calibrate at this one");
   }
   const Measured measured = measure(flags, calibration, pictures);
 

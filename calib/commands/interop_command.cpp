@@ -7,7 +7,7 @@
 #include "calib/board/board.h"
 #include "calib/commands/commands.h"
 #include "calib/interop/interop.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 #include "daemon/config/calibration_file.h"
 
 namespace stereod {
@@ -34,7 +34,7 @@ Size parse_size(const std::string& text) {
   const auto width = std::from_chars(text.data(), end, size.width);
   if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
     const auto height = std::from_chars(width.ptr + 1, end, size.height);
-    const auto fits = [](int side) { return side >= 1 && side <= kMaxWidth_px; };
+    const auto fits = [](int side) { return side >= 1 && side <= kMaxImageFileSide; };
     if (height.ec == std::errc() && height.ptr == end && fits(size.width) && fits(size.height)) return size;
   }
   throw UsageError("--image-size: found '" + text + "', allowed is width x height in pixels, like 640x480");

@@ -6,7 +6,7 @@
 #include "calib/base/errors.h"
 #include "calib/commands/commands.h"
 #include "calib/report/report.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 #include "daemon/config/calibration_file.h"
 
 namespace stereod {

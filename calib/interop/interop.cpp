@@ -1,14 +1,13 @@
 #include "calib/interop/interop.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "calib/quality/distortion_foldover.h"
 #include "calib/quality/verdict.h"
 #include "daemon/base/file_error.h"
+#include "daemon/base/text.h"
 
 namespace stereod {
 
@@ -54,17 +53,12 @@ bool is_camera_matrix(const std::vector<double>& k) {
   return k[1] == 0 && k[3] == 0 && k[6] == 0 && k[7] == 0 && k[8] == 1;
 }
 
-std::string digits(double number) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
-}
-
 double right_shift(const Calibration& c) {
   const double fx = c.right.projection.fx, product = -fx * c.baseline_m;
   // Rounding of the quotient and of the product: two steps at most.
   double before = std::nextafter(std::nextafter(product, -kInfinity), -kInfinity), best = product;
   for (int step = 0; step < 5; ++step, before = std::nextafter(before, kInfinity)) {
-    if (-before / fx == c.baseline_m && digits(before).size() < digits(best).size()) best = before;
+    if (-before / fx == c.baseline_m && exact(before).size() < exact(best).size()) best = before;
   }
   return best;
 }

@@ -51,9 +51,6 @@ bool is_camera_matrix(const std::vector<double>& numbers);
 inline constexpr const char* kCameraMatrix =
     "allowed is fx, 0, cx, 0, fy, cy, 0, 0, 1, a camera without skew";
 
-/// The shortest decimal number that reads back to the same bits.
-std::string digits(double number);
-
 /// The fourth number of a right camera's projection, −fx·baseline; of the two or three that read back as this
 /// baseline the one with the fewest digits, which is what another program's file had.
 double right_shift(const Calibration& calibration);

@@ -7,8 +7,8 @@
 
 #include "calib/interop/interop.h"
 #include "core/geometry/stereo_rectification.h"
+#include "daemon/base/file.h"
 #include "daemon/base/file_error.h"
-#include "daemon/base/text_file.h"
 
 namespace stereod {
 
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 class Storage {
  public:
   explicit Storage(const fs::path& file) : file_(file) {
-    if (!fs::is_regular_file(file)) throw FileError(file.string() + ": there is no such file");
+    if (!fs::is_regular_file(file)) throw FileError(file.string() + ": the file does not exist");
     try {
       if (storage_.open(file.string(), cv::FileStorage::READ)) return;
     } catch (const cv::Exception&) {
@@ -107,8 +107,8 @@ Size image_size(const Storage& file, const OpenCvHints& hints, const fs::path& n
     throw FileError(name.string() +
                     ": does not say how large the images are; say --image-size, like 640x480");
   }
-  return {file.whole_number("image_width", 1, kMaxWidth_px),
-          file.whole_number("image_height", 1, kMaxWidth_px)};
+  return {file.whole_number("image_width", 1, kMaxImageFileSide),
+          file.whole_number("image_height", 1, kMaxImageFileSide)};
 }
 
 cv::Mat matrix_of(const std::vector<double>& values, int rows) {

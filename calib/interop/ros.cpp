@@ -2,7 +2,8 @@
 #include <vector>
 
 #include "calib/interop/interop.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
+#include "daemon/base/text.h"
 #include "daemon/config/yaml_section.h"
 
 namespace stereod {
@@ -19,8 +20,8 @@ struct RosCamera {
 RosCamera read_camera(YamlSection& root, const std::string& name, const fs::path& file) {
   RosCamera result;
   CameraModel& m = result.camera.camera;
-  m.image = {root.required_integer("image_width", 1, kMaxWidth_px),
-             root.required_integer("image_height", 1, kMaxWidth_px)};
+  m.image = {root.required_integer("image_width", 1, kMaxImageFileSide),
+             root.required_integer("image_height", 1, kMaxImageFileSide)};
   const std::vector<double> k = root.required_section("camera_matrix").required_numbers("data", {9});
   if (!is_camera_matrix(k)) root.fail("camera_matrix", kCameraMatrix);
   m.fx = k[0], m.fy = k[4], m.cx = k[2], m.cy = k[5];
@@ -50,7 +51,7 @@ RosCamera read_camera(YamlSection& root, const std::string& name, const fs::path
 
 std::string list_of(const std::vector<double>& values) {
   std::string text = "[";
-  for (std::size_t i = 0; i < values.size(); ++i) text += (i > 0 ? ", " : "") + digits(values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) text += (i > 0 ? ", " : "") + exact(values[i]);
   return text + "]";
 }
 
@@ -77,9 +78,8 @@ std::string ros_text(const char* name, const CameraCalibration& c, double right_
   out << matrix("rectification_matrix", 3, 3, {c.rotation.m.begin(), c.rotation.m.end()});
   out << matrix("projection_matrix", 3, 4, {p.fx, 0, p.cx, right_shift, 0, p.fy, p.cy, 0, 0, 0, 1, 0});
   const CalibrationQuality& q = whole.quality;
-  out << "stereod:\n  baseline_m: " << digits(whole.baseline_m) << "\n  pairs_used: " << q.pairs_used
-      << "\n  rms_px: " << digits(q.rms_px) << "\n  epipolar_error_px: " << digits(q.epipolar_error_px)
-      << "\n";
+  out << "stereod:\n  baseline_m: " << exact(whole.baseline_m) << "\n  pairs_used: " << q.pairs_used
+      << "\n  rms_px: " << exact(q.rms_px) << "\n  epipolar_error_px: " << exact(q.epipolar_error_px) << "\n";
   return out.str();
 }
 
@@ -97,12 +97,12 @@ Calibration read_ros(const fs::path& left, const fs::path& right) {
                     " the left one's; exchange them");
   }
   if (l.right_shift != 0) {
-    left_root.fail("projection_matrix", "found " + digits(l.right_shift) +
+    left_root.fail("projection_matrix", "found " + exact(l.right_shift) +
                                             " as the fourth number, which is 0 for a left camera; these two "
                                             "files are no stereo pair");
   }
   if (!(r.right_shift < 0)) {
-    right_root.fail("projection_matrix", "found " + digits(r.right_shift) +
+    right_root.fail("projection_matrix", "found " + exact(r.right_shift) +
                                              " as the fourth number, which must be −fx·baseline of a right "
                                              "camera, below 0; these two files are no stereo pair");
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stereod/image_t.hpp>
 
+#include "core/base/limits.h"
 #include "daemon/lcm/pixel_format_codes.h"
 
 namespace stereod {
@@ -10,12 +11,11 @@ namespace stereod {
 namespace {
 
 constexpr std::int64_t kTolerance_ns = 50'000'000;  // both are of one pair, which the daemon has made
-constexpr std::int32_t kMaxWidth = 16384;
 
 // Whether the image's numbers fit its data.
 bool is_sound(const image_t& image) {
-  return image.pixelformat == kPixelFormatGray && image.width > 0 && image.width <= kMaxWidth &&
-         image.height > 0 && image.height <= kMaxWidth && image.row_stride >= image.width &&
+  return image.pixelformat == kPixelFormatGray && image.width > 0 && image.width <= kMaxImageSide &&
+         image.height > 0 && image.height <= kMaxImageSide && image.row_stride >= image.width &&
          image.data.size() >=
              static_cast<std::size_t>(image.height - 1) * static_cast<std::size_t>(image.row_stride) +
                  static_cast<std::size_t>(image.width);

@@ -1,7 +1,8 @@
 #include "calib/quality/verdict.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "daemon/base/text.h"
 
 namespace stereod {
 
@@ -13,13 +14,7 @@ constexpr double kGoodCoverage = 0.6, kUsableCoverage = 0.3;
 constexpr double kUsableBreakdown = 0.05;
 constexpr int kGoodPairs = 8;
 
-std::string number(double value, int digits) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
-
-std::string percent(double share) { return number(100 * share, 0) + " %"; }
+std::string percent(double share) { return fixed(100 * share, 0) + " %"; }
 
 Grade grade_of(double value, double good, double usable) {
   if (value <= good) return Grade::kGood;
@@ -64,15 +59,15 @@ Grade grade_of_foldover(double share) { return grade_of(share, 0, kUsableBreakdo
 Verdict judge(const QualityStats& f) {
   VerdictBuilder jury;
   jury.hear(grade_of_epipolar_error(f.epipolar_error_px),
-            "Rows of the two rectified images are " + number(f.epipolar_error_px, 2) +
-                " px apart on pairs that were held back; up to " + number(kGoodRow_px, 2) +
-                " is good, above " + number(kUsableRow_px, 1) + " the matcher loses points.");
+            "Rows of the two rectified images are " + fixed(f.epipolar_error_px, 2) +
+                " px apart on pairs that were held back; up to " + fixed(kGoodRow_px, 2) +
+                " is good, above " + fixed(kUsableRow_px, 1) + " the matcher loses points.");
   jury.hear(f.max_epipolar_error_px <= 4 * kGoodRow_px ? Grade::kGood : Grade::kUsable,
-            "One pair that was held back is " + number(f.max_epipolar_error_px, 2) +
+            "One pair that was held back is " + fixed(f.max_epipolar_error_px, 2) +
                 " px off: a part of the image, or a distance, was not calibrated with.");
   jury.hear(
       grade_of(f.rms_px, kGoodRms_px, kUsableRms_px),
-      "Corners are " + number(f.rms_px, 2) + " px from where they belong; up to " + number(kGoodRms_px, 1) +
+      "Corners are " + fixed(f.rms_px, 2) + " px from where they belong; up to " + fixed(kGoodRms_px, 1) +
           " is good. Is the board flat and stiff, were cameras and board still, is the lens model right?");
   const double coverage = std::min(f.left_coverage, f.right_coverage);
   jury.hear(coverage >= kGoodCoverage     ? Grade::kGood
@@ -83,7 +78,7 @@ Verdict judge(const QualityStats& f) {
                 (f.empty_parts.empty() ? "" : ", not in " + list_of(f.empty_parts)) +
                 "; depth there is not to be trusted.");
   jury.hear(grade_of_foldover(f.breakdown),
-            "The lens model breaks down in " + number(100 * f.breakdown, 1) +
+            "The lens model breaks down in " + fixed(100 * f.breakdown, 1) +
                 " % of the images: it has more coefficients than these images can hold. Show the board there "
                 "too, or choose a lens model with fewer of them.");
   jury.hear(f.pairs_used >= kGoodPairs ? Grade::kGood : Grade::kUsable,
@@ -94,8 +89,7 @@ Verdict judge(const QualityStats& f) {
                 "images at the same moment?");
   Verdict verdict = std::move(jury).verdict();
   if (verdict.grade == Grade::kGood) {
-    verdict.reasons.push_back("Rows of the two rectified images are within " +
-                              number(f.epipolar_error_px, 2) +
+    verdict.reasons.push_back("Rows of the two rectified images are within " + fixed(f.epipolar_error_px, 2) +
                               " px of each other on pairs that were held back, and the board was seen in " +
                               percent(coverage) + " of the image or more.");
   }

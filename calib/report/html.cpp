@@ -1,7 +1,6 @@
 #include "calib/report/html.h"
 
 #include <cmath>
-#include <cstdio>
 
 namespace stereod {
 
@@ -26,12 +25,6 @@ std::string escaped(std::string_view text) {
     }
   }
   return result;
-}
-
-std::string fixed(double value, int digits) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
 }
 
 std::string length_in_words(double meters) {

@@ -6,13 +6,12 @@
 #include <string>
 #include <string_view>
 
+#include "daemon/base/text.h"
+
 namespace stereod {
 
 /// Safe as text and as an attribute's value.
 std::string escaped(std::string_view text);
-
-/// With so many digits after the point.
-std::string fixed(double value, int digits);
 
 /// "3 mm", "4.2 cm", "1.3 m": two figures.
 std::string length_in_words(double meters);

@@ -9,6 +9,7 @@
 #include "calib/report/html.h"
 #include "calib/report/report_charts.h"
 #include "calib/report/report_style.h"
+#include "core/base/text.h"
 
 namespace stereod {
 
@@ -178,7 +179,7 @@ std::string numbers_section(const SolveResult& result) {
   const auto fact = [&](const char* name, const std::string& value) {
     html += std::string("<tr><td>") + name + "</td><td>" + value + "</td></tr>";
   };
-  fact("image", std::to_string(c.image.width) + "×" + std::to_string(c.image.height));
+  fact("image", to_string(c.image));
   fact("lens model", lens_words(result.lens));
   fact("board", in_words(result.board) + ", squares of " + fixed(1000 * result.board.square_m, 2) + " mm");
   fact("baseline", fixed(1000 * c.baseline_m, 2) + " mm");

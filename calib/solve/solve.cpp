@@ -12,6 +12,7 @@
 #include "calib/quality/matched_boards.h"
 #include "calib/solve/pair_consensus.h"
 #include "daemon/base/progress.h"
+#include "daemon/base/text.h"
 
 namespace stereod {
 
@@ -24,11 +25,7 @@ constexpr double kOutlierFactor = 3;
 constexpr double kCoarseFloorPx = 2;  // while each camera is known only for itself
 constexpr double kFineFloorPx = 0.6;  // once both are solved together
 
-std::string px(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, value < 10 ? "%.2f px" : "%.0f px", value);
-  return text;
-}
+std::string px(double value) { return fixed(value, value < 10 ? 2 : 0) + " px"; }
 
 // The state of a solution while pairs are sorted out.
 class Solver {

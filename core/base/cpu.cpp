@@ -1,10 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/base/cpu.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-
-#include "core/base/enum_names.h"
 
 #if defined(__x86_64__) || defined(__i386__)
 #include <cpuid.h>
@@ -13,18 +12,9 @@
 namespace stereod {
 namespace {
 
-constexpr EnumNames<Isa, 6> kIsas{{{Isa::kAuto, "auto"},
-                                   {Isa::kScalar, "scalar"},
-                                   {Isa::kSsse3, "ssse3"},
-                                   {Isa::kSse41, "sse41"},
-                                   {Isa::kAvx2, "avx2"},
-                                   {Isa::kNeon, "neon"}}};
-constexpr EnumNames<CacheUse, 3> kCacheUses{
-    {{CacheUse::kAuto, "auto"}, {CacheUse::kLarge, "large"}, {CacheUse::kSmall, "small"}}};
-
 #if defined(__x86_64__) || defined(__i386__)
-// Bytes of the first-level data cache, from Intel's "deterministic cache parameters" (CPUID leaf 4); 0 if it
-// does not say. AMD's CPUs do not, and none of them has less than 32 KiB.
+/// Returns the size of the first-level data cache [bytes] from Intel's "deterministic cache parameters" (CPUID leaf 4),
+/// 0 if unknown. AMD's CPUs do not report it; all of them have 32 KiB or more.
 unsigned first_level_cache_bytes() {
   constexpr unsigned kLeaf = 4;
   for (unsigned index = 0; index < 8; ++index) {
@@ -48,10 +38,10 @@ unsigned first_level_cache_bytes() {
 
 }  // namespace
 
-std::string_view name_of(Isa isa) { return find_name(kIsas, isa); }
-std::string_view name_of(CacheUse cache) { return find_name(kCacheUses, cache); }
-std::optional<Isa> parse_isa(std::string_view name) { return find_value(kIsas, name); }
-std::optional<CacheUse> parse_cache_use(std::string_view name) { return find_value(kCacheUses, name); }
+std::string_view name_of(Isa isa) { return find_name(kIsaNames, isa); }
+std::string_view name_of(CacheUse cache) { return find_name(kCacheUseNames, cache); }
+std::optional<Isa> parse_isa(std::string_view name) { return find_value(kIsaNames, name); }
+std::optional<CacheUse> parse_cache_use(std::string_view name) { return find_value(kCacheUseNames, name); }
 
 std::vector<Isa> available_isas() {
   std::vector<Isa> isas{Isa::kScalar};
@@ -60,7 +50,8 @@ std::vector<Isa> available_isas() {
   if (__builtin_cpu_supports("sse4.1")) isas.push_back(Isa::kSse41);
   if (__builtin_cpu_supports("avx2")) isas.push_back(Isa::kAvx2);
 #elif defined(__aarch64__) || defined(__ARM_NEON)
-  isas.push_back(Isa::kNeon);  // of every 64-bit ARM; 32-bit programs are built for CPUs that have it, or not
+  // Every 64-bit ARM CPU has NEON; a 32-bit program is built with it or without it.
+  isas.push_back(Isa::kNeon);
 #endif
   return isas;
 }
@@ -70,10 +61,9 @@ Isa resolve_isa(Isa wanted) {
   if (wanted == Isa::kAuto) return isas.back();
   if (std::find(isas.begin(), isas.end(), wanted) != isas.end()) return wanted;
   std::string names;
-  for (const Isa isa : isas) names += (names.empty() ? "" : ", ") + std::string(name_of(isa));
-  throw std::invalid_argument(
-      "isa is " + std::string(name_of(wanted)) +
-      ", which this CPU or this build does not have; here auto and these are allowed: " + names);
+  for (const Isa isa : isas) names += ", " + std::string(name_of(isa));
+  throw std::invalid_argument("isa " + std::string(name_of(wanted)) +
+                              " is not available on this CPU or in this build, allowed auto" + names);
 }
 
 CacheUse resolve_cache_use(CacheUse wanted) {
@@ -83,8 +73,8 @@ CacheUse resolve_cache_use(CacheUse wanted) {
   const unsigned bytes = first_level_cache_bytes();
   return bytes > 0 && bytes <= kMin ? CacheUse::kSmall : CacheUse::kLarge;
 #elif defined(__aarch64__) || defined(__arm__)
-  // Programs cannot ask. The boards' cores share a second-level cache that is smaller than what large takes
-  // for each worker.
+  // Programs cannot read the cache size. The boards' cores share a second-level cache that is smaller than what kLarge
+  // takes for each worker.
   return CacheUse::kSmall;
 #else
   return CacheUse::kLarge;

@@ -1,4 +1,5 @@
-// Names of an enumeration's values.
+// SPDX-License-Identifier: BSD-3-Clause
+// Maps the values of an enumeration to names and back.
 #pragma once
 
 #include <array>

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/base/text.h"
+
 namespace stereod {
 
 namespace {
@@ -29,14 +31,7 @@ void each_number(const CameraCalibration& c, Visit&& visit) {
   visit("projection cx", p.cx), visit("projection cy", p.cy);
 }
 
-std::string text(double number) {
-  std::ostringstream out;
-  out.precision(10);
-  out << number;
-  return out.str();
-}
-
-std::string text(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
+std::string text(double number) { return significant(number, 10); }
 
 Problem problem_with_range(const std::string& what, double number, double least, double most,
                            const std::string& unit) {
@@ -117,9 +112,9 @@ std::optional<Point2> rectified_point(const CameraCalibration& c, Point2 source)
 
 std::optional<std::string> problem_with_camera(const std::string& name, const CameraModel& camera) {
   for (const int side : {camera.image.width, camera.image.height}) {
-    if (side >= 1 && side <= kMaxWidth_px) continue;
-    return "the " + name + " camera's images are " + text(camera.image) + "; width and height must be 1 to " +
-           std::to_string(kMaxWidth_px);
+    if (side >= 1 && side <= kMaxImageFileSide) continue;
+    return "the " + name + " camera's images are " + to_string(camera.image) +
+           "; width and height must be 1 to " + std::to_string(kMaxImageFileSide);
   }
   if (Problem p = problem_with_numbers(name, {camera, {}, {}})) return p;
   constexpr double kRightAngle = std::numbers::pi / 2;
@@ -166,17 +161,17 @@ std::optional<std::string> problem_with_view(const Calibration& calibration) {
 std::optional<std::string> problem_with(const Calibration& calibration) {
   const Size image = calibration.image;
   for (const int side : {image.width, image.height}) {
-    if (side >= 1 && side <= kMaxWidth_px) continue;
-    return "the image size is " + text(image) + "; width and height must be 1 to " +
-           std::to_string(kMaxWidth_px);
+    if (side >= 1 && side <= kMaxImageFileSide) continue;
+    return "the image size is " + to_string(image) + "; width and height must be 1 to " +
+           std::to_string(kMaxImageFileSide);
   }
   for (const bool is_left : {true, false}) {
     const std::string name = is_left ? "left" : "right";
     const CameraCalibration& c = is_left ? calibration.left : calibration.right;
     if (Problem p = problem_with_camera(name, c)) return p;
     if (c.camera.image != image) {
-      return "the " + name + " camera's images are " + text(c.camera.image) + ", the calibration's are " +
-             text(image);
+      return "the " + name + " camera's images are " + to_string(c.camera.image) +
+             ", the calibration's are " + to_string(image);
     }
   }
   const CalibrationQuality& quality = calibration.quality;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/image.h"
+#include "core/base/limits.h"
 #include "core/geometry/camera_model.h"
 
 namespace stereod {
@@ -53,7 +54,6 @@ struct Calibration {
 
 // The ranges of a sound calibration: wide enough for any camera, narrow enough to catch a number in the wrong
 // place or unit. Principal points are as far off as focal lengths are long at most.
-inline constexpr int kMaxWidth_px = 16384;
 inline constexpr double kMinFocal_px = 1, kMaxFocal_px = 1e6;
 inline constexpr double kMinBaseline_m = 1e-4, kMaxBaseline_m = 100;
 inline constexpr double kMaxError_px = 1e6;

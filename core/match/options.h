@@ -1,58 +1,63 @@
-// What can be asked of the matchers, and what cannot.
+// SPDX-License-Identifier: BSD-3-Clause
+// Defines the options of the matchers, their presets and their limits.
 #pragma once
 
+#include <array>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "core/base/cpu.h"
+#include "core/base/enum_names.h"
+#include "core/base/problem.h"
 #include "core/match/disparity.h"
 
 namespace stereod {
 
-/// Which matcher: the thesis' sums over windows, or paths along rows. docs/matcher.md defines both.
+/// Selects the matcher: sums over windows (the thesis) or paths along rows. docs/matcher.md defines both.
 enum class Method { kBlock, kSemiglobal };
 
-/// The points at which the semi-global matcher looks: every second row, and every second column or each.
+/// Selects the samples of the semi-global matcher: every second row, with every second column or every column.
 enum class Grid { kCoarse, kFine };
 
-/// Four stages of the same matcher (thesis, sections 3.3, 3.7 and 3.8; the fourth, threads over bands,
-/// applies to each). All give the same result to the bit. The semi-global matcher has no sliding one.
+/// Selects the implementation (thesis, sections 3.3, 3.7 and 3.8; threads over bands apply to each). All give the same
+/// result to the bit. The semi-global matcher has no sliding implementation.
 enum class Implementation { kNaive, kSliding, kSimd };
 
-/// What the images go through before they are compared.
+/// Selects what is done to the images before they are compared.
 enum class Prefilter {
   kNone,    ///< raw gray values, the thesis' cost
   kXsobel,  ///< horizontal Sobel gradient, clipped to ±cap: insensitive to exposure and slow shading
 };
 
-/// How a window's difference is measured (thesis, equations 2.1 to 2.3). All but kSad exist only in the naive
-/// implementation, so that the definitions can be compared.
+/// Selects the difference of two windows (thesis, equations 2.1 to 2.3). kSsd and kMad exist only in the naive
+/// implementation, to compare the definitions.
 enum class Cost { kSad, kSsd, kMad };
 
+/// Holds the options of both matchers. Ranges and units are in matcher_option_table().
 struct MatcherOptions {
   Method method = Method::kBlock;
-  int min_disparity = 0;  ///< 0…1024 px
-  int disparities = 64;   ///< 1…256; searched are [min_disparity, min_disparity + disparities)
-  int window = 11;        ///< block: side of the square support window, odd, 3…31 px
+  int min_disparity = 0;
+  int disparities = 64;  ///< searched are [min_disparity, min_disparity + disparities)
+  int window = 11;       ///< block: side of the support window [px]
   Cost cost = Cost::kSad;
   Prefilter prefilter = Prefilter::kXsobel;
-  int prefilter_cap = 31;  ///< 1…63 gray levels
+  int prefilter_cap = 31;  ///< [gray levels]
   int texture_threshold =
-      0;  ///< block: least sum over the window of |gradient| (clipped to the cap); 0 is off
-  int uniqueness_ratio = 0;  ///< %; a rival within this of the best cost, not beside it, rejects; 0 is off
-  int left_right_max_diff = -1;  ///< px the right image's own choice may differ; -1 is off
-  bool subpixel = true;          ///< answers in 1/16 px instead of whole pixels
-  int median = 0;                ///< side of the median: 0 (off), 3 or (block only) 5
+      0;  ///< block: minimum sum of |gradient| (clipped to the cap) over the window; 0 is off
+  int uniqueness_ratio =
+      0;  ///< [%] a second match within this of the best cost, not beside it, rejects; 0 is off
+  int left_right_max_diff = -1;  ///< [px] by which the right image's own match may differ; -1 is off
+  bool subpixel = true;          ///< results in 1/16 px instead of whole pixels
+  int median = 0;                ///< side of the median filter: 0 (off), 3, or 5 (block only) [px]
   int speckle_size = 0;          ///< regions of up to this many pixels are removed; 0 is off
-  int speckle_max_diff = 1;      ///< px between neighbors of one region
+  int speckle_max_diff = 1;      ///< [px] between neighbors of one region
   // The semi-global matcher's own:
   Grid grid = Grid::kCoarse;
-  int p1 = 8;                 ///< what a step of one disparity costs along a path, 0…255
-  int p2 = 40;                ///< what a larger step costs, less the step in gray values there, 0…255
-  int census_weight = 4;      ///< cost of each of the eight comparisons that differ, 0…16
-  int gradient_limit = 20;    ///< most that differing gradients cost, and what lies outside the image, 0…64
-  bool hole_filling = false;  ///< pixels without a match get that of a neighbor, see is_filled()
+  int p1 = 8;                 ///< cost of a step of one disparity along a path
+  int p2 = 40;                ///< cost of a larger step, less the step in gray values there
+  int census_weight = 4;      ///< cost of each of the eight comparisons that differ
+  int gradient_limit = 20;    ///< maximum cost of differing gradients, and the cost outside the image
+  bool hole_filling = false;  ///< pixels without a match get the value of a neighbor, see is_filled()
   Implementation implementation = Implementation::kSimd;
   Isa isa = Isa::kAuto;
   CacheUse cache = CacheUse::kAuto;
@@ -61,17 +66,30 @@ struct MatcherOptions {
   int units_per_pixel() const { return subpixel ? kSubpixelUnits : 1; }
 };
 
-/// Named settings: block matching `thesis` (raw sums of absolute differences, no filter) and `fast` (an
-/// answer for every pixel); semi-global `robust` (no ghosts), `dense` (the same, filled) and `fine` (for thin
-/// things). Nothing if there is no such preset.
+/// Names of the presets. Block matching: `thesis` (raw sums of absolute differences, no filter), `fast` (a value for every
+/// pixel). Semi-global: `robust` (no false matches), `dense` (the same, filled), `fine` (for thin objects).
+inline constexpr std::array<std::string_view, 5> kMatcherPresets{"robust", "dense", "fine", "fast", "thesis"};
+
+/// Returns the options of a preset, nothing if there is none of this name.
 std::optional<MatcherOptions> matcher_preset(std::string_view name);
-inline constexpr std::string_view kMatcherPresets = "thesis, fast, robust, dense, fine";
 
-/// What is wrong with the options, as a sentence that names the option, what was found and what is allowed;
-/// nothing if they are fine.
-std::optional<std::string> problem_with(const MatcherOptions& options);
+/// Returns the first option that has a value it cannot have, alone or with the others; nothing if the options can be
+/// used.
+std::optional<Problem> problem_with(const MatcherOptions& options);
 
-/// The names used in configuration files, on command lines and in messages. parse_…: nothing if unknown.
+inline constexpr EnumNames<Method, 2> kMethodNames{
+    {{Method::kBlock, "block"}, {Method::kSemiglobal, "semiglobal"}}};
+inline constexpr EnumNames<Grid, 2> kGridNames{{{Grid::kCoarse, "coarse"}, {Grid::kFine, "fine"}}};
+inline constexpr EnumNames<Implementation, 3> kImplementationNames{{{Implementation::kNaive, "naive"},
+                                                                    {Implementation::kSliding, "sliding"},
+                                                                    {Implementation::kSimd, "simd"}}};
+inline constexpr EnumNames<Prefilter, 2> kPrefilterNames{
+    {{Prefilter::kNone, "none"}, {Prefilter::kXsobel, "xsobel"}}};
+inline constexpr EnumNames<Cost, 3> kCostNames{
+    {{Cost::kSad, "sad"}, {Cost::kSsd, "ssd"}, {Cost::kMad, "mad"}}};
+
+/// Return the names used in configuration files, on command lines and in messages, and the values of such names; nothing
+/// if the name is unknown.
 std::string_view name_of(Method method);
 std::string_view name_of(Grid grid);
 std::string_view name_of(Implementation implementation);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/cpu.h"
+#include "core/base/text.h"
 #include "core/rectify/remap_runs.h"
 
 namespace stereod {
@@ -21,15 +22,13 @@ constexpr std::ptrdiff_t kColorBytes = 3;
 constexpr int kBlended =
     256;  // columns that are blended at once: their neighbors fit well in a first-level cache
 
-std::string text(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
-
 void check(const SourceLayout& layout) {
   const Size size = layout.size;
   if (size.width < 1 || size.height < 1) {
-    throw std::invalid_argument("an image of " + text(size) + " pixels cannot be rectified");
+    throw std::invalid_argument("an image of " + to_string(size) + " pixels cannot be rectified");
   }
   if (size.width > RunTable::kMaxWidth) {
-    throw std::invalid_argument("an image of " + text(size) + " pixels cannot be rectified; at most " +
+    throw std::invalid_argument("an image of " + to_string(size) + " pixels cannot be rectified; at most " +
                                 std::to_string(RunTable::kMaxWidth) + " columns are possible");
   }
   constexpr std::ptrdiff_t kMax = std::numeric_limits<std::int32_t>::max() - kColorBytes;
@@ -44,7 +43,7 @@ void check(const SourceLayout& layout) {
                                 std::to_string(layout.pixel_stride) + " bytes apart");
   }
   if (layout.row_stride > kMax / size.height) {
-    throw std::invalid_argument("an image of " + text(size) + " pixels with rows " +
+    throw std::invalid_argument("an image of " + to_string(size) + " pixels with rows " +
                                 std::to_string(layout.row_stride) +
                                 " bytes apart is too large: offsets into it must fit 31 bits");
   }
@@ -119,8 +118,8 @@ RectifyMap::RectifyMap(const CameraCalibration& calibration, const SourceLayout&
     : RectifyMap(layout, interpolation) {
   const CameraModel& camera = calibration.camera;
   if (camera.image != layout.size) {
-    throw std::invalid_argument("the calibration is for " + text(camera.image) +
-                                " images, the camera delivers " + text(layout.size));
+    throw std::invalid_argument("the calibration is for " + to_string(camera.image) +
+                                " images, the camera delivers " + to_string(layout.size));
   }
   // From a rectified pixel to a direction of the camera. A rotation's inverse is its transpose.
   const Matrix3 to_camera = transposed(calibration.rotation) * inverse_of_projection(calibration.projection);

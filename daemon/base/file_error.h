@@ -1,12 +1,13 @@
-// What is thrown when a file cannot be used.
+// SPDX-License-Identifier: BSD-3-Clause
+// Defines the exception for files that cannot be used.
 #pragma once
 
 #include <stdexcept>
 
 namespace stereod {
 
-/// A file that is missing, unreadable or not what it should be. what() is one sentence: the file, what was
-/// found, what is allowed.
+/// Reports a file that is missing, unreadable or malformed. what() names the file, the value found and the value
+/// allowed.
 class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

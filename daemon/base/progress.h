@@ -1,4 +1,5 @@
-// A progress bar for people who wait.
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws a progress bar.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,7 @@
 
 namespace stereod {
 
-/// Draws itself on stderr if that is a terminal, and wipes itself off at the end; else it is silent.
+/// Draws a bar on stderr and clears it at the end. Silent if stderr is not a terminal.
 class Progress {
  public:
   Progress(std::string what, std::size_t total);
@@ -25,7 +26,7 @@ class Progress {
   bool shown_;
 };
 
-/// "[#####.....]": `done` of `total` parts of `width` characters.
+/// Returns "[#####.....]" for @p done of @p total parts, @p width characters between the brackets.
 std::string progress_bar(std::size_t done, std::size_t total, std::size_t width);
 
 }  // namespace stereod

@@ -1,16 +1,17 @@
-// SIGINT and SIGTERM as a question instead of an interruption.
+// SPDX-License-Identifier: BSD-3-Clause
+// Turns SIGINT and SIGTERM into a question.
 #pragma once
 
 #include <signal.h>
 
 namespace stereod {
 
-/// Keeps SIGINT and SIGTERM from ending the program in the middle of something: from its construction on they
-/// are only noted. Make it before LCM starts its threads, which inherit this.
+/// Blocks SIGINT and SIGTERM, so that they do not end the program in the middle of something. Construct it before LCM
+/// starts its threads, which inherit the mask.
 class StopSignals {
  public:
   StopSignals();
-  /// True once one of them has come.
+  /// Returns whether one of the signals has arrived since the construction.
   bool arrived();
 
  private:

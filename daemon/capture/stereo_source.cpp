@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/base/text.h"
 #include "core/geometry/stereo_rectification.h"
 #include "daemon/base/file_error.h"
 #include "daemon/capture/replay/log_source.h"
@@ -15,8 +16,6 @@
 
 namespace stereod {
 namespace {
-
-std::string in_words(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
 
 StereoSource open_replay_rig(const CamerasConfig& cameras) {
   const ReplayOptions options{cameras.fps, cameras.replay_loop};
@@ -98,7 +97,7 @@ std::optional<Calibration> calibration_for(const Config& config, const StereoSou
   const Size size = rig.left->frame_size();
   if (calibration && calibration->image != size) {
     throw FileError(config.calibration.string() + ": the calibration is for images of " +
-                    in_words(calibration->image) + ", the cameras give " + in_words(size) +
+                    to_string(calibration->image) + ", the cameras give " + to_string(size) +
                     "; calibrate at that size or set the cameras to the calibration's");
   }
   if (calibration && config.rectify.alpha) {

@@ -1,12 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/config/calibration_file.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <sstream>
 #include <vector>
 
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
+#include "daemon/base/text.h"
 #include "daemon/config/yaml_section.h"
 
 namespace stereod {
@@ -37,7 +37,7 @@ CameraCalibration read_camera(YamlSection section, Size image) {
   camera.image = image;
   const std::string model = section.required_text("model");
   if (model != "pinhole" && model != "fisheye") {
-    section.fail("model", "found '" + model + "', allowed are 'pinhole' and 'fisheye'");
+    section.fail("model", "found '" + model + "', allowed pinhole, fisheye");
   }
   camera.lens = model == "fisheye" ? LensModel::kFisheye : LensModel::kPinhole;
   camera.fx = focal_length(section, "fx");
@@ -62,22 +62,16 @@ CalibrationQuality read_quality(YamlSection section) {
   return result;
 }
 
-// The shortest decimal number that reads back to the same bits.
-std::string digits(double number) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
-}
-
 void write_camera(std::ostream& out, const char* name, const CameraCalibration& c) {
   const CameraModel& m = c.camera;
   out << "\n" << name << ":\n";
   const bool fisheye = m.lens == LensModel::kFisheye;
   out << "  model: " << (fisheye ? "fisheye" : "pinhole") << "\n";
-  out << "  fx: " << digits(m.fx) << "  # focal lengths, pixels\n";
-  out << "  fy: " << digits(m.fy) << "\n";
-  out << "  cx: " << digits(m.cx)
+  out << "  fx: " << exact(m.fx) << "  # focal lengths, pixels\n";
+  out << "  fy: " << exact(m.fy) << "\n";
+  out << "  cx: " << exact(m.cx)
       << "  # principal point, pixels; (0, 0) is the center of the top left pixel\n";
-  out << "  cy: " << digits(m.cy) << "\n";
+  out << "  cy: " << exact(m.cy) << "\n";
   out << (fisheye
               ? "  # k1, k2, k3, k4 of the equidistant model, as in OpenCV\n"
               : "  # k1, k2, p1, p2, k3, k4, k5, k6, s1, s2, s3, s4, tau_x, tau_y, as in OpenCV; what is not "
@@ -85,21 +79,21 @@ void write_camera(std::ostream& out, const char* name, const CameraCalibration& 
   out << "  distortion: [";
   const char* separator = "";
   for (const double coefficient : distortion_of(m)) {
-    out << separator << digits(coefficient);
+    out << separator << exact(coefficient);
     separator = ", ";
   }
   out << "]\n";
   out << "  # from directions of the camera to directions of the rectified camera, row by row\n";
   out << "  rotation: [";
   for (int row = 0; row < 3; ++row) {
-    out << digits(c.rotation(row, 0)) << ", " << digits(c.rotation(row, 1)) << ", "
-        << digits(c.rotation(row, 2));
+    out << exact(c.rotation(row, 0)) << ", " << exact(c.rotation(row, 1)) << ", "
+        << exact(c.rotation(row, 2));
     out << (row < 2 ? ",\n             " : "]\n");
   }
   out << "  # the pinhole camera of the rectified image, pixels\n";
   out << "  projection:\n";
-  out << "    fx: " << digits(c.projection.fx) << "\n    fy: " << digits(c.projection.fy) << "\n";
-  out << "    cx: " << digits(c.projection.cx) << "\n    cy: " << digits(c.projection.cy) << "\n";
+  out << "    fx: " << exact(c.projection.fx) << "\n    fy: " << exact(c.projection.fy) << "\n";
+  out << "    cx: " << exact(c.projection.cx) << "\n    cy: " << exact(c.projection.cy) << "\n";
 }
 
 }  // namespace
@@ -107,9 +101,9 @@ void write_camera(std::ostream& out, const char* name, const CameraCalibration& 
 Calibration read_calibration(const std::filesystem::path& file) {
   YamlSection root(file, load_yaml_map(file));
   Calibration result;
-  root.text("id", "");  // known, but not believed
-  result.image.width = root.required_integer("image_width", 1, kMaxWidth_px);
-  result.image.height = root.required_integer("image_height", 1, kMaxWidth_px);
+  root.text("id");  // recomputed from the numbers
+  result.image.width = root.required_integer("image_width", 1, kMaxImageFileSide);
+  result.image.height = root.required_integer("image_height", 1, kMaxImageFileSide);
   result.baseline_m = root.required_number("baseline_m", kMinBaseline_m, kMaxBaseline_m);
   result.left = read_camera(root.required_section("left"), result.image);
   result.right = read_camera(root.required_section("right"), result.image);
@@ -130,16 +124,16 @@ std::string calibration_text(const Calibration& calibration) {
   out << "image_width: " << calibration.image.width
       << "  # of the cameras' images and of the rectified ones, pixels\n";
   out << "image_height: " << calibration.image.height << "\n";
-  out << "baseline_m: " << digits(calibration.baseline_m)
+  out << "baseline_m: " << exact(calibration.baseline_m)
       << "  # from the left camera to the right one, meters\n";
   write_camera(out, "left", calibration.left);
   write_camera(out, "right", calibration.right);
   const CalibrationQuality& quality = calibration.quality;
   out << "\nquality:\n";
   out << "  pairs_used: " << quality.pairs_used << "\n";
-  out << "  rms_px: " << digits(quality.rms_px) << "  # reprojection error, pixels\n";
-  out << "  epipolar_error_px: " << digits(quality.epipolar_error_px)
-      << "  # rows a point is apart in the rectified images, mean, pixels\n";
+  out << "  rms_px: " << exact(quality.rms_px) << "  # reprojection error, pixels\n";
+  out << "  epipolar_error_px: " << exact(quality.epipolar_error_px)
+      << "  # mean epipolar error in the rectified images, pixels\n";
   return out.str();
 }
 

@@ -1,4 +1,5 @@
-// calibration.yaml: what stereo-calibrate writes and the daemon reads.
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads and writes calibration.yaml.
 #pragma once
 
 #include <filesystem>
@@ -9,16 +10,16 @@
 
 namespace stereod {
 
-/// Reads a calibration. Strict: every key must be there and known, every number finite and in range, the
-/// whole free of what problem_with() finds. The id is computed from the numbers, whatever the file says, so
-/// that an edited file has another. Throws FileError: "file:line: key: what was found, what is allowed".
+/// Reads a calibration strictly: every key is required and known, every number finite and in range, and problem_with()
+/// finds nothing. The id is computed from the numbers, so that an edited file has another one.
+/// @throws FileError "file:line: key: what was found, what is allowed".
 Calibration read_calibration(const std::filesystem::path& file);
 
-/// The file's text: commented, and every number with as many digits as reading it back to the bit takes.
+/// Returns the text of the file, with comments. Numbers have the digits that read back to the same bits.
 std::string calibration_text(const Calibration& calibration);
 
-/// Writes a sound calibration as write_text_file() does: what was there before is replaced as a whole or not
-/// at all. Throws FileError.
+/// Writes a calibration without problem_with() by write_text_file(): as a whole or not at all.
+/// @throws FileError.
 void write_calibration(const std::filesystem::path& file, const Calibration& calibration);
 
 }  // namespace stereod

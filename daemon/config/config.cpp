@@ -1,14 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/config/config.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <sstream>
 #include <thread>
 
-#include "daemon/config/publish_section.h"
-#include "daemon/config/scan_section.h"
-#include "daemon/config/v4l2_section.h"
+#include "core/base/limits.h"
+#include "daemon/config/sections.h"
 #include "daemon/config/yaml_section.h"
 
 namespace stereod {
@@ -16,143 +15,9 @@ namespace {
 
 constexpr int kMaxCpus = 1024;          // of the C library's sets of CPUs
 constexpr std::size_t kMaxPrefix = 40;  // LCM's channel names have at most 63 characters
+constexpr int kMaxWorkers = 64;
 
-std::optional<SourceKind> parse_source_kind(std::string_view name) {
-  if (name == "v4l2") return SourceKind::kV4l2;
-  if (name == "replay") return SourceKind::kReplay;
-  if (name == "synthetic") return SourceKind::kSynthetic;
-  if (name == "log") return SourceKind::kLog;
-  return std::nullopt;
-}
-
-void read_replay(YamlSection section, CamerasConfig& cameras) {
-  cameras.replay_left = section.file_name("left");
-  cameras.replay_right = section.file_name("right");
-  cameras.replay_directory = section.file_name("directory");
-  cameras.replay_loop = section.flag("loop", cameras.replay_loop);
-  section.finish();
-  const bool pair = !cameras.replay_left.empty() && !cameras.replay_right.empty();
-  const bool half = cameras.replay_left.empty() != cameras.replay_right.empty();
-  if (half || pair != cameras.replay_directory.empty()) {
-    section.fail(
-        "left", "found " +
-                    std::string(half   ? "one of left and right"
-                                : pair ? "both a pair and a directory"
-                                       : "nothing to play") +
-                    ", allowed are either left and right, two images, or directory, one with numbered pairs");
-  }
-}
-
-void read_log(YamlSection section, CamerasConfig& cameras) {
-  cameras.log_file = section.file_name("file");
-  cameras.log_prefix = section.text("prefix", cameras.log_prefix);
-  cameras.log_loop = section.flag("loop", cameras.log_loop);
-  section.finish();
-  if (cameras.log_file.empty()) section.fail("file", "found nothing, needed is the name of an LCM log");
-}
-
-std::optional<SceneKind> parse_scene_kind(std::string_view name) {
-  if (name == "room") return SceneKind::kRoom;
-  if (name == "board") return SceneKind::kBoard;
-  return std::nullopt;
-}
-
-void read_synthetic(YamlSection section, CamerasConfig& cameras) {
-  cameras.scene = section.choice<SceneKind>("scene", cameras.scene, "room and board", parse_scene_kind);
-  cameras.width = section.integer("width", cameras.width, 64, 1920);
-  cameras.height = section.integer("height", cameras.height, 48, 1200);
-  cameras.skew_ms = section.number("skew_ms", cameras.skew_ms, -100, 100);
-  section.finish();
-}
-
-void read_cameras(YamlSection section, CamerasConfig& cameras) {
-  section.required_text("source");
-  cameras.source = section.choice<SourceKind>("source", cameras.source, "v4l2, replay, synthetic and log",
-                                              parse_source_kind);
-  cameras.fps = section.number("fps", cameras.fps, 0, 240);
-  cameras.max_skew_ms = section.number("max_skew_ms", cameras.max_skew_ms, 0, 1000);
-  // A section for another source may stay in the file; it is checked all the same.
-  read_v4l2_section(section, cameras);
-  YamlSection replay = section.section("replay");
-  YamlSection synthetic = section.section("synthetic");
-  YamlSection log = section.section("log");
-  if (cameras.source == SourceKind::kReplay || section.has("replay")) read_replay(std::move(replay), cameras);
-  if (cameras.source == SourceKind::kLog || section.has("log")) read_log(std::move(log), cameras);
-  read_synthetic(std::move(synthetic), cameras);
-  section.finish();
-}
-
-void read_rectify(YamlSection section, RectifyConfig& rectify) {
-  rectify.interpolation = section.choice<Interpolation>("interpolation", rectify.interpolation,
-                                                        "nearest and bilinear", parse_interpolation);
-  if (section.has("alpha")) rectify.alpha = section.number("alpha", 0, 0, 1);
-  section.finish();
-}
-
-// Keys that the matcher chosen has no use for are more likely a mistake than a wish.
-void refuse_keys_of_other_method(YamlSection& section, Method method) {
-  const auto refuse = [&](const char* key, const char* owner) {
-    if (section.has(key))
-      section.fail(key, "belongs to method: " + std::string(owner) + ", which is not the one chosen");
-  };
-  if (method == Method::kSemiglobal) {
-    for (const char* key : {"window", "texture_threshold", "cost", "cache"}) refuse(key, "block");
-  } else {
-    for (const char* key : {"grid", "p1", "p2", "census_weight", "gradient_limit", "hole_filling"}) {
-      refuse(key, "semiglobal");
-    }
-  }
-}
-
-void read_semiglobal(YamlSection& section, MatcherOptions& options) {
-  options.grid = section.choice<Grid>("grid", options.grid, "coarse and fine", parse_grid);
-  options.p1 = section.integer("p1", options.p1, 0, 255);
-  options.p2 = section.integer("p2", options.p2, 0, 255);
-  options.census_weight = section.integer("census_weight", options.census_weight, 0, 16);
-  options.gradient_limit = section.integer("gradient_limit", options.gradient_limit, 0, 64);
-  options.hole_filling = section.flag("hole_filling", options.hole_filling);
-}
-
-void read_matcher(YamlSection section, MatcherOptions& options) {
-  const std::string preset = section.text("preset", "robust");
-  const auto chosen = matcher_preset(preset);
-  if (!chosen) section.fail("preset", "found '" + preset + "', allowed are " + std::string(kMatcherPresets));
-  options = *chosen;
-  options.method = section.choice<Method>("method", options.method, "block and semiglobal", parse_method);
-  refuse_keys_of_other_method(section, options.method);
-  read_semiglobal(section, options);
-  options.min_disparity = section.integer("min_disparity", options.min_disparity, 0, 1024);
-  options.disparities = section.integer("disparities", options.disparities, 1, 256);
-  options.window = section.integer("window", options.window, 3, 31);
-  if (options.window % 2 == 0) {
-    section.fail("window",
-                 "found " + std::to_string(options.window) + ", allowed are odd numbers from 3 to 31");
-  }
-  options.cost = section.choice<Cost>("cost", options.cost, "sad, ssd and mad", parse_cost);
-  options.prefilter =
-      section.choice<Prefilter>("prefilter", options.prefilter, "none and xsobel", parse_prefilter);
-  options.prefilter_cap = section.integer("prefilter_cap", options.prefilter_cap, 1, 63);
-  // A preset without a prefilter to measure it on has no texture threshold.
-  if (options.prefilter == Prefilter::kNone) options.texture_threshold = 0;
-  options.texture_threshold = section.integer("texture_threshold", options.texture_threshold, 0, 100'000);
-  options.uniqueness_ratio = section.integer("uniqueness_ratio", options.uniqueness_ratio, 0, 100);
-  options.left_right_max_diff = section.integer("left_right_max_diff", options.left_right_max_diff, -1, 255);
-  options.subpixel = section.flag("subpixel", options.subpixel);
-  options.median = section.integer("median", options.median, 0, 5);
-  options.speckle_size = section.integer("speckle_size", options.speckle_size, 0, 1'000'000);
-  options.speckle_max_diff = section.integer("speckle_max_diff", options.speckle_max_diff, 0, 255);
-  options.implementation = section.choice<Implementation>("implementation", options.implementation,
-                                                          "naive, sliding and simd", parse_implementation);
-  options.isa =
-      section.choice<Isa>("isa", options.isa, "auto, scalar, ssse3, sse41, avx2 and neon", parse_isa);
-  options.cache = section.choice<CacheUse>("cache", options.cache, "auto, large and small", parse_cache_use);
-  section.finish();
-  if (const auto problem = problem_with(options)) {  // what is left are combinations of keys
-    section.fail(problem->substr(0, problem->find(' ')), *problem);
-  }
-}
-
-// "0,2-3" as 0, 2, 3; nothing if it is no such list.
+/// Returns 0, 2, 3 for "0,2-3", nothing if the text is not such a list.
 std::optional<std::vector<int>> parse_cpus(std::string_view text) {
   std::vector<int> cpus;
   std::istringstream parts{std::string(text)};
@@ -172,68 +37,178 @@ std::optional<std::vector<int>> parse_cpus(std::string_view text) {
   return cpus;
 }
 
-void read_scheduling(YamlSection section, SchedulingConfig& scheduling) {
-  scheduling.priority = section.integer("priority", scheduling.priority, 0, 99);
-  scheduling.cpus = section.choice<std::vector<int>>(
-      "cpus", scheduling.cpus, "lists of CPUs by number from 0 to 1023, such as 2-3 or 0,2-3", parse_cpus);
+/// Returns the CPUs as a comma-separated list.
+std::string cpus_text(const std::vector<int>& cpus) {
+  std::string text;
+  for (const int cpu : cpus) text += (text.empty() ? "" : ",") + std::to_string(cpu);
+  return text;
+}
+
+bool is_prefix(std::string_view text) {
+  return !text.empty() && text.size() <= kMaxPrefix &&
+         std::all_of(text.begin(), text.end(), [](unsigned char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+                  c == '-' || c == '.';
+         });
+}
+
+template <typename Settings>
+void read_section(YamlSection section, const Options<Settings>& table, Settings& settings) {
+  section.read(table, settings);
   section.finish();
 }
 
-void read_lcm(YamlSection section, LcmConfig& lcm) {
-  lcm.url = section.text("url", lcm.url);
-  lcm.prefix = section.text("prefix", lcm.prefix);
-  const bool plain = std::all_of(lcm.prefix.begin(), lcm.prefix.end(), [](unsigned char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-' || c == '.';
-  });
-  if (lcm.prefix.empty() || lcm.prefix.size() > kMaxPrefix || !plain) {
-    section.fail("prefix", "found '" + lcm.prefix + "', allowed are 1 to " + std::to_string(kMaxPrefix) +
-                               " letters, digits, '_', '-' and '.'");
-  }
-  if (section.text("rows_per_message", "auto") != "auto") {
-    lcm.rows_per_message = section.integer("rows_per_message", 0, 1, 4096);
-  }
-  lcm.pacing = section.number("pacing", lcm.pacing, 0, 0.9);
-  lcm.raw_images = section.flag("raw_images", lcm.raw_images);
-  lcm.raw_images_per_second = section.number("raw_images_per_second", lcm.raw_images_per_second, 0.1, 60);
-  LeftImageConfig& left = lcm.left_image;
-  const std::string form = section.text("left_image", "off");
-  if (form != "off" && form != "jpeg" && form != "gray") {
-    section.fail("left_image", "found '" + form + "', allowed are off, jpeg and gray");
-  }
-  left.enabled = form != "off";
-  left.jpeg = form == "jpeg";
-  left.per_second = section.number("left_images_per_second", left.per_second, 0.1, 240);
-  section.finish();
+Option<RectifyConfig> interpolation_option() {
+  return {
+      {.key = "interpolation",
+       .type = OptionInfo::Type::kChoice,
+       .names = {name_of(Interpolation::kBilinear), name_of(Interpolation::kNearest)},
+       .description =
+           "Value of a rectified pixel, from the four pixels around its source (bilinear) or the nearest one. "
+           "nearest takes a quarter of the time, shifts rows by up to half a pixel and loses a tenth more "
+           "pixels."},
+      [](const RectifyConfig& rectify) { return OptionValue(std::string(name_of(rectify.interpolation))); },
+      [](RectifyConfig& rectify, const OptionValue& value) {
+        rectify.interpolation = parse_interpolation(std::get<std::string>(value)).value();
+      }};
 }
 
-std::string read_log_level(YamlSection section, const std::string& otherwise) {
-  constexpr std::array<std::string_view, 4> kLevels{"debug", "info", "warning", "error"};
-  std::string level =
-      section.choice<std::string>("level", otherwise, "debug, info, warning and error",
-                                  [&](std::string_view name) -> std::optional<std::string> {
-                                    if (std::find(kLevels.begin(), kLevels.end(), name) == kLevels.end())
-                                      return std::nullopt;
-                                    return std::string(name);
-                                  });
-  section.finish();
-  return level;
+Option<SchedulingConfig> cpus_option() {
+  return {{.key = "cpus",
+           .format = "CPU numbers 0…1023, such as 2-3 or 0,2-3",
+           .accepts = [](std::string_view text) { return parse_cpus(text).has_value(); },
+           .default_name = "all",
+           .description = "CPUs on which the matching threads run."},
+          [](const SchedulingConfig& scheduling) { return OptionValue(cpus_text(scheduling.cpus)); },
+          [](SchedulingConfig& scheduling, const OptionValue& value) {
+            scheduling.cpus = parse_cpus(std::get<std::string>(value)).value();
+          }};
+}
+
+Option<LcmConfig> left_image_option() {
+  return {{.key = "left_image",
+           .type = OptionInfo::Type::kChoice,
+           .names = {"none", "jpeg", "gray"},
+           .description =
+               "Publishes the rectified left image as STEREO_LEFT (bot_core.image_t), for stereo-view and "
+               "lcm-spy. jpeg takes one datagram at 640×480, gray (uncompressed) several."},
+          [](const LcmConfig& lcm) {
+            return OptionValue(std::string(!lcm.left_image.enabled ? "none"
+                                           : lcm.left_image.jpeg   ? "jpeg"
+                                                                   : "gray"));
+          },
+          [](LcmConfig& lcm, const OptionValue& value) {
+            lcm.left_image.enabled = std::get<std::string>(value) != "none";
+            lcm.left_image.jpeg = std::get<std::string>(value) == "jpeg";
+          }};
 }
 
 }  // namespace
 
-std::string_view name_of(SourceKind kind) {
-  switch (kind) {
-    case SourceKind::kV4l2:
-      return "v4l2";
-    case SourceKind::kReplay:
-      return "replay";
-    case SourceKind::kSynthetic:
-      return "synthetic";
-    case SourceKind::kLog:
-      return "log";
-  }
-  return "?";
+const Options<Config>& root_options() {
+  static const Options<Config> table{
+      option<&Config::calibration>(
+          {.key = "calibration",
+           .format = "file by stereo-calibrate",
+           .example = "calibration.yaml",
+           .description =
+               "Calibration of the two cameras, relative to the directory of this file. Without it the images "
+               "are matched as they are and must be rectified already; source synthetic has its own."}),
+      option<&Config::workers>({.key = "workers",
+                                .minimum = 0,
+                                .maximum = kMaxWorkers,
+                                .default_name = "one for each CPU",
+                                .description = "Number of matching threads."}),
+  };
+  return table;
+}
+
+const Options<RectifyConfig>& rectify_options() {
+  static const Options<RectifyConfig> table{
+      interpolation_option(),
+      option<&RectifyConfig::alpha>(
+          {.key = "alpha",
+           .minimum = 0,
+           .maximum = 1,
+           .default_name = "that of the calibration",
+           .example = "0.5",
+           .description =
+               "Part of the view that is kept. 0: only what both cameras have pixels for. 1: all of it, with margins that are never matched. Calibrations by stereo-calibrate have 0."}),
+  };
+  return table;
+}
+
+const Options<SchedulingConfig>& scheduling_options() {
+  static const Options<SchedulingConfig> table{
+      option<&SchedulingConfig::priority>(
+          {.key = "priority",
+           .minimum = 0,
+           .maximum = 99,
+           .default_name = "normal scheduling",
+           .description = "Real-time priority (SCHED_FIFO) of the matching threads."}),
+      cpus_option(),
+  };
+  return table;
+}
+
+const Options<LcmConfig>& lcm_options() {
+  using L = LcmConfig;
+  static const Options<L> table{
+      option<&L::url>(
+          {.key = "url",
+           .format = "LCM URL",
+           .default_name = "LCM_DEFAULT_URL, or udpm://239.255.76.67:7667?ttl=0 (this machine only)",
+           .description = "Network to publish on."}),
+      option<&L::prefix>({.key = "prefix",
+                          .format = "1…40 letters, digits, '_', '-', '.'",
+                          .accepts = is_prefix,
+                          .description = "First part of every channel name, such as STEREO_DISPARITY."}),
+      option<&L::rows_per_message>(
+          {.key = "rows_per_message",
+           .minimum = 1,
+           .maximum = kMaxImageSide,
+           .unset_name = "auto",
+           .default_name = "16, or as many as fit",
+           .description =
+               "Rows of the disparity image in one message, which holds at most 65243 bytes of them."}),
+      option<&L::pacing>(
+          {.key = "pacing",
+           .minimum = 0,
+           .maximum = 0.9,
+           .description =
+               "Share of the frame period (up to 0.1 s) over which the rows of a frame are sent, so that a burst "
+               "does not overrun a receiver's socket buffer. 0 sends rows as soon as they are matched; fps: 0 "
+               "counts as 30 Hz."}),
+      option<&L::raw_images>(
+          {.key = "raw_images",
+           .description =
+               "Publishes the cameras' images as STEREO_LEFT_RAW and STEREO_RIGHT_RAW (bot_core.image_t), for "
+               "calibration. An image takes many datagrams and is lost with any one of them: for this machine, "
+               "or with large socket buffers."}),
+      option<&L::raw_images_per_second>({.key = "raw_images_per_second",
+                                         .unit = "Hz",
+                                         .minimum = 0.1,
+                                         .maximum = 60,
+                                         .description = "Maximum rate of the raw images."}),
+      left_image_option(),
+      option<&L::left_image, &LeftImageConfig::per_second>(
+          {.key = "left_images_per_second",
+           .unit = "Hz",
+           .minimum = 0.1,
+           .maximum = 240,
+           .description = "Maximum rate of the left image."}),
+  };
+  return table;
+}
+
+const Options<Config>& log_options() {
+  static const Options<Config> table{
+      option<&Config::log_level>({.key = "level",
+                                  .type = OptionInfo::Type::kChoice,
+                                  .names = {"debug", "info", "warning", "error"},
+                                  .description = "Minimum severity of the messages that are logged."}),
+  };
+  return table;
 }
 
 std::int64_t CamerasConfig::pairing_tolerance_ns() const {
@@ -244,7 +219,7 @@ std::int64_t CamerasConfig::pairing_tolerance_ns() const {
 
 int Config::worker_count() const {
   if (workers > 0) return workers;
-  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 64u));
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxWorkers);
 }
 
 std::string place_of(const std::filesystem::path& file, const std::string& key) {
@@ -264,19 +239,29 @@ std::string place_of(const std::filesystem::path& file, const std::string& key) 
   return file.string() + (line > 0 ? ":" + std::to_string(line) : "") + ": " + key;
 }
 
+std::optional<Problem> problem_for_daemon(const Config& config) {
+  const MatcherOptions& matcher = config.matcher;
+  if (matcher.method == Method::kSemiglobal && matcher.implementation == Implementation::kNaive) {
+    return Problem{
+        "matcher.implementation",
+        "found naive with method semiglobal, allowed simd (naive takes seconds for each frame; it is for "
+        "stereo-match and tests)"};
+  }
+  return std::nullopt;
+}
+
 Config read_config(const std::filesystem::path& file) {
   YamlSection root(file, load_yaml_map(file));
   Config config;
-  read_cameras(root.required_section("cameras"), config.cameras);
-  config.calibration = root.file_name("calibration");
-  read_rectify(root.section("rectify"), config.rectify);
-  read_matcher(root.section("matcher"), config.matcher);
-  config.workers = root.integer("workers", config.workers, 0, 64);
-  read_scheduling(root.section("scheduling"), config.scheduling);
-  read_lcm(root.section("lcm"), config.lcm);
+  root.read(root_options(), config);
+  read_cameras_section(root.required_section("cameras"), config.cameras);
+  read_section(root.section("rectify"), rectify_options(), config.rectify);
+  read_matcher_section(root.section("matcher"), config.matcher);
+  read_section(root.section("scheduling"), scheduling_options(), config.scheduling);
+  read_section(root.section("lcm"), lcm_options(), config.lcm);
   read_publish_section(root.section("publish"), config.publish);
   read_scan_section(root.section("scan"), config.scan);
-  config.log_level = read_log_level(root.section("log"), config.log_level);
+  read_section(root.section("log"), log_options(), config);
   root.finish();
   return config;
 }

@@ -1,30 +1,82 @@
-#include "daemon/config/publish_section.h"
-
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads the section `publish`.
 #include <utility>
+
+#include "core/base/limits.h"
+#include "daemon/config/sections.h"
 
 namespace stereod {
 namespace {
 
-constexpr int kMaxSide = 4096;
-constexpr int kMaxStep = 64;
-
-void read_region(YamlSection section, PublishConfig& publish) {
-  publish.left = section.integer("left", publish.left, 0, kMaxSide);
-  publish.top = section.integer("top", publish.top, 0, kMaxSide);
-  publish.width = section.integer("width", publish.width, 0, kMaxSide);
-  publish.height = section.integer("height", publish.height, 0, kMaxSide);
-  section.finish();
-}
+constexpr int kMaxDecimation = 64;
 
 }  // namespace
 
+const Options<PublishConfig>& region_options() {
+  using P = PublishConfig;
+  static const Options<P> table{
+      option<&P::left>({.key = "left",
+                        .unit = "px",
+                        .minimum = 0,
+                        .maximum = kMaxImageSide,
+                        .description = "First column of the rectified image."}),
+      option<&P::top>({.key = "top",
+                       .unit = "px",
+                       .minimum = 0,
+                       .maximum = kMaxImageSide,
+                       .description = "First row of the rectified image."}),
+      option<&P::width>({.key = "width",
+                         .unit = "px",
+                         .minimum = 0,
+                         .maximum = kMaxImageSide,
+                         .default_name = "up to the edge",
+                         .description = "Number of columns."}),
+      option<&P::height>({.key = "height",
+                          .unit = "px",
+                          .minimum = 0,
+                          .maximum = kMaxImageSide,
+                          .default_name = "up to the edge",
+                          .description = "Number of rows."}),
+  };
+  return table;
+}
+
+const Options<PublishConfig>& publish_options() {
+  using P = PublishConfig;
+  static const Options<P> table{
+      option<&P::decimation_x>(
+          {.key = "decimation_x",
+           .minimum = 1,
+           .maximum = kMaxDecimation,
+           .description = "Sends every n-th column. Saves network load, not computing time."}),
+      option<&P::decimation_y>({.key = "decimation_y",
+                                .minimum = 1,
+                                .maximum = kMaxDecimation,
+                                .description = "Sends every n-th row."}),
+      option<&P::depth>({.key = "depth",
+                         .description =
+                             "Also publishes depth in millimeters as STEREO_DEPTH (depth_rows_t), 16 bits a "
+                             "pixel. Needs a calibration."}),
+      option<&P::cloud>({.key = "cloud",
+                         .description =
+                             "Also publishes points in meters as STEREO_CLOUD (bot_core.pointcloud_t), one "
+                             "message a frame. Needs a calibration."}),
+      option<&P::cloud_decimation>(
+          {.key = "cloud_decimation",
+           .minimum = 1,
+           .maximum = kMaxDecimation,
+           .description =
+               "Takes every n-th column and row of the region for the points. With 8, the points of 640×480 "
+               "pixels fit into one datagram; losing one of several datagrams loses all points."}),
+  };
+  return table;
+}
+
 void read_publish_section(YamlSection section, PublishConfig& publish) {
-  read_region(section.section("region"), publish);
-  publish.decimation_x = section.integer("decimation_x", publish.decimation_x, 1, kMaxStep);
-  publish.decimation_y = section.integer("decimation_y", publish.decimation_y, 1, kMaxStep);
-  publish.depth = section.flag("depth", publish.depth);
-  publish.cloud = section.flag("cloud", publish.cloud);
-  publish.cloud_decimation = section.integer("cloud_decimation", publish.cloud_decimation, 1, kMaxStep);
+  YamlSection region = section.section("region");
+  region.read(region_options(), publish);
+  region.finish();
+  section.read(publish_options(), publish);
   section.finish();
 }
 

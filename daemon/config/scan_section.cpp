@@ -1,40 +1,104 @@
-#include "daemon/config/scan_section.h"
-
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads the section `scan`.
+#include <array>
 #include <numbers>
-#include <optional>
+#include <string>
+
+#include "core/base/text.h"
+#include "daemon/config/sections.h"
 
 namespace stereod {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;  // in a degree
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+constexpr EnumNames<bool, 2> kGroundNames{{{true, "estimate"}, {false, "fixed"}}};
 
-std::optional<bool> parse_ground(std::string_view name) {
-  if (name == "fit") return true;
-  if (name == "given") return false;
-  return std::nullopt;
+Option<ScanConfig> pitch_option() {
+  return {{.key = "camera_pitch_deg",
+           .type = OptionInfo::Type::kNumber,
+           .unit = "deg",
+           .minimum = -45,
+           .maximum = 45,
+           .only_with = "ground: fixed",
+           .description = "Angle by which the camera looks down."},
+          [](const ScanConfig& scan) { return OptionValue(scan.ground.pitch_rad / kRadiansPerDegree); },
+          [](ScanConfig& scan, const OptionValue& value) {
+            scan.ground.pitch_rad = std::get<double>(value) * kRadiansPerDegree;
+          }};
 }
 
 }  // namespace
 
+const Options<ScanConfig>& scan_options() {
+  using S = ScanConfig;
+  using O = ScanOptions;
+  static const Options<S> table{
+      option<&S::enabled>(
+          {.key = "enabled",
+           .description =
+               "Publishes the nearest obstacle in each direction as STEREO_SCAN (bot_core.planar_lidar_t), "
+               "once a frame. Needs a calibration."}),
+      choice<kGroundNames, &S::fit_ground>(
+          {.key = "ground",
+           .description = "Position of the floor. estimate: found in the disparities and followed. fixed: as "
+                          "camera_height_m and camera_pitch_deg say."}),
+      option<&S::ground, &GroundPlane::height_m>(
+          {.key = "camera_height_m",
+           .unit = "m",
+           .minimum = 0.02,
+           .maximum = 5,
+           .only_with = "ground: fixed",
+           .description = "Height of the left camera above the floor."}),
+      pitch_option(),
+      option<&S::options, &O::min_obstacle_height_m>(
+          {.key = "min_obstacle_height_m",
+           .unit = "m",
+           .minimum = 0.001,
+           .maximum = 2,
+           .description = "Maximum height above the floor of what can be driven over."}),
+      option<&S::options, &O::max_obstacle_height_m>(
+          {.key = "max_obstacle_height_m",
+           .unit = "m",
+           .minimum = 0.002,
+           .maximum = 10,
+           .description = "Height above the floor from which things can be driven under. Must be above "
+                          "min_obstacle_height_m."}),
+      option<&S::options, &O::max_range_m>({.key = "max_range_m",
+                                            .unit = "m",
+                                            .minimum = 0.1,
+                                            .maximum = 100,
+                                            .description = "Maximum distance of obstacles."}),
+      option<&S::options, &O::rays>(
+          {.key = "rays", .minimum = 1, .maximum = 1024, .description = "Number of directions."}),
+      option<&S::options, &O::min_support>(
+          {.key = "min_support",
+           .unit = "px",
+           .minimum = 1,
+           .maximum = 100'000,
+           .description = "Minimum number of pixels of an obstacle in one direction."}),
+      option<&S::options, &O::stop_distance_m>(
+          {.key = "stop_distance_m",
+           .unit = "m",
+           .minimum = 0,
+           .maximum = 100,
+           .description =
+               "Distance to an obstacle ahead below which frame_t's flag stop is set; 0 never sets it. The flag "
+               "is also set while too little is seen, or the floor is not found yet."}),
+      option<&S::options, &O::stop_width_m>({.key = "stop_width_m",
+                                             .unit = "m",
+                                             .minimum = 0.01,
+                                             .maximum = 10,
+                                             .description = "Width of the way ahead that must be free."}),
+  };
+  return table;
+}
+
 void read_scan_section(YamlSection section, ScanConfig& scan) {
-  scan.enabled = section.flag("enabled", scan.enabled);
-  scan.fit_ground = section.choice<bool>("ground", scan.fit_ground, "fit and given", parse_ground);
-  scan.ground.height_m = section.number("camera_height_m", scan.ground.height_m, 0.02, 5);
-  scan.ground.pitch_rad =
-      section.number("camera_pitch_deg", scan.ground.pitch_rad / kRadians, -45, 45) * kRadians;
-  ScanOptions& options = scan.options;
-  options.min_obstacle_height_m =
-      section.number("min_obstacle_height_m", options.min_obstacle_height_m, 0.001, 2);
-  options.max_obstacle_height_m =
-      section.number("max_obstacle_height_m", options.max_obstacle_height_m, 0.002, 10);
-  options.max_range_m = section.number("max_range_m", options.max_range_m, 0.1, 100);
-  options.rays = section.integer("rays", options.rays, 1, 1024);
-  options.min_support = section.integer("min_support", options.min_support, 1, 100'000);
-  options.stop_distance_m = section.number("stop_distance_m", options.stop_distance_m, 0, 100);
-  options.stop_width_m = section.number("stop_width_m", options.stop_width_m, 0.01, 10);
-  if (options.max_obstacle_height_m <= options.min_obstacle_height_m) {
-    section.fail("max_obstacle_height_m",
-                 "is not above min_obstacle_height_m, so that nothing would be an obstacle");
+  section.read(scan_options(), scan);
+  if (scan.options.max_obstacle_height_m <= scan.options.min_obstacle_height_m) {
+    section.fail("max_obstacle_height_m", "found " + significant(scan.options.max_obstacle_height_m) +
+                                              ", allowed more than min_obstacle_height_m (" +
+                                              significant(scan.options.min_obstacle_height_m) + ")");
   }
   section.finish();
 }

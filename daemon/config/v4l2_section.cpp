@@ -1,46 +1,50 @@
-#include "daemon/config/v4l2_section.h"
-
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads the section `cameras.v4l2`.
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <string>
+
+#include "core/base/limits.h"
+#include "core/base/text.h"
+#include "daemon/config/sections.h"
 
 namespace stereod {
 namespace {
 
-constexpr std::array<std::string_view, 9> kFormats{"auto", "gray", "nv12", "yu12", "yuyv",
-                                                   "uyvy", "y10",  "y16",  "mjpeg"};
+constexpr EnumNames<ExposureMode, 3> kExposureNames{
+    {{ExposureMode::kAuto, "auto"}, {ExposureMode::kFollow, "follow"}, {ExposureMode::kLock, "lock"}}};
+constexpr EnumNames<SyncMode, 3> kSyncNames{
+    {{SyncMode::kNone, "none"}, {SyncMode::kStart, "start"}, {SyncMode::kAlways, "always"}}};
 
-std::optional<std::string> parse_format(std::string_view name) {
-  if (std::find(kFormats.begin(), kFormats.end(), name) == kFormats.end()) return std::nullopt;
-  return std::string(name);
-}
+constexpr std::string_view kDevice =
+    "auto, /dev/v4l/by-path/…, /dev/v4l/by-id/…, serial:NUMBER, /dev/videoN; 'stereod --list-cameras' prints the names";
+constexpr std::string_view kControls = "NAME: VALUE, …";
 
-std::optional<ExposureMode> parse_exposure(std::string_view name) {
-  if (name == "auto") return ExposureMode::kAuto;
-  if (name == "lock") return ExposureMode::kLock;
-  if (name == "follow") return ExposureMode::kFollow;
-  return std::nullopt;
-}
+bool is_device(std::string_view text) { return !text.empty() && text != "serial:"; }
 
-std::optional<SyncMode> parse_sync(std::string_view name) {
-  if (name == "never") return SyncMode::kNone;
-  if (name == "start") return SyncMode::kStart;
-  if (name == "always") return SyncMode::kAlways;
-  return std::nullopt;
-}
-
-std::string read_device(YamlSection& section, const std::string& key, const std::string& otherwise) {
-  const std::string device = section.text(key, otherwise);
-  if (device.empty() || device == "serial:") {
-    section.fail(key, "found '" + device +
-                          "', allowed are auto, a name below /dev/v4l/by-path or by-id, a node such as "
-                          "/dev/video0, and serial:NUMBER; 'stereod --list-cameras' shows them");
-  }
-  // One node may be written in many ways: //dev/video0.
+/// Returns one spelling for all spellings of a node, such as //dev/video0.
+std::string normalized(const std::string& device) {
   return device.starts_with('/') ? std::filesystem::path(device).lexically_normal().string() : device;
 }
 
-// What lock and follow make equal is not set for one camera alone.
+std::string exposure_setting(ExposureMode mode) {
+  return "'exposure: " + std::string(find_name(kExposureNames, mode)) + "'";
+}
+
+void check_devices(YamlSection& section, V4l2Config& v4l2) {
+  v4l2.left = normalized(v4l2.left);
+  v4l2.right = normalized(v4l2.right);
+  if (v4l2.left == v4l2.right && v4l2.left != "auto") {
+    section.fail("right", "found '" + v4l2.right + "', which is the left camera, allowed another one");
+  }
+  if ((v4l2.left == "auto") != (v4l2.right == "auto")) {
+    section.fail(v4l2.left == "auto" ? "left" : "right",
+                 "found 'auto' for one camera, allowed auto for both cameras or a name for each");
+  }
+}
+
+/// Refuses a control for one camera alone that lock and follow make equal for both.
 void check_own_controls(YamlSection& section, const std::string& key, const ControlValues& own,
                         ExposureMode mode) {
   constexpr std::array<std::string_view, 7> kExposure{
@@ -49,58 +53,98 @@ void check_own_controls(YamlSection& section, const std::string& key, const Cont
   if (mode == ExposureMode::kAuto) return;
   for (const auto& [name, value] : own) {
     if (std::find(kExposure.begin(), kExposure.end(), name) == kExposure.end()) continue;
-    const std::string modes = mode == ExposureMode::kLock ? "lock" : "follow";
-    section.fail(key, "found " + name + " for one camera, but with 'exposure: " + modes +
-                          "' both have the same; name it in 'controls' for both, or set 'exposure: auto'");
+    section.fail(key, "found " + name + " for one camera, but " + exposure_setting(mode) +
+                          " makes it equal for both; name it in 'controls', or set 'exposure: auto'");
   }
 }
 
-// With lock and follow the daemon itself lets an automatic mode work, and switches it off.
+/// Refuses automatic modes that lock and follow switch themselves.
 void check_modes(YamlSection& section, const ControlValues& values, ExposureMode mode) {
   if (mode == ExposureMode::kAuto) return;
   for (const auto& [name, value] : values) {
     const bool exposure = name == "auto_exposure" || name == "exposure_auto";
     const bool gain = name == "gain_automatic" || name == "autogain";
     if (!(exposure && value != 1) && !(gain && value != 0)) continue;
-    const std::string modes = mode == ExposureMode::kLock ? "lock" : "follow";
-    section.fail("controls", "found " + name + ": " + std::to_string(value) +
-                                 ", an automatic mode, but 'exposure: " + modes +
-                                 "' sets it by itself; leave it out, or set 'exposure: auto'");
+    section.fail("controls", "found " + name + ": " + std::to_string(value) + ", an automatic mode, but " +
+                                 exposure_setting(mode) + " sets it; remove it, or set 'exposure: auto'");
   }
 }
 
 }  // namespace
 
+const Options<V4l2Config>& v4l2_options() {
+  using V = V4l2Config;
+  static const Options<V> table{
+      option<&V::left>(
+          {.key = "left",
+           .format = kDevice,
+           .accepts = is_device,
+           .description =
+               "Left camera. A port (by-path) keeps left on the left after a replug; auto, for both "
+               "cameras, takes them in the order of their ports."}),
+      option<&V::right>(
+          {.key = "right", .format = "as for left", .accepts = is_device, .description = "Right camera."}),
+      option<&V::width>({.key = "width",
+                         .unit = "px",
+                         .minimum = 64,
+                         .maximum = kMaxImageSide,
+                         .description = "Width of both cameras' images."}),
+      option<&V::height>({.key = "height",
+                          .unit = "px",
+                          .minimum = 48,
+                          .maximum = kMaxImageSide,
+                          .description = "Height of both cameras' images."}),
+      option<&V::format>(
+          {.key = "format",
+           .type = OptionInfo::Type::kChoice,
+           .names = {"auto", "gray", "nv12", "yu12", "yuyv", "uyvy", "y10", "y16", "mjpeg"},
+           .description =
+               "Pixel format. auto takes the best that the bus has bandwidth for: uncompressed, else mjpeg, else "
+               "a lower rate; libv4l2 converts a format that stereod cannot read."}),
+      choice<kExposureNames, &V::exposure>(
+          {.key = "exposure",
+           .description =
+               "Control of the exposure. auto: each camera controls its own. follow (recommended): the right camera copies the left one. lock: both keep the exposure found in the first two seconds."}),
+      option<&V::controls>(
+          {.key = "controls",
+           .format = kControls,
+           .description =
+               "Controls of both cameras by name, such as {power_line_frequency: 1, gain: 20}. Automatic modes "
+               "that would override a value are switched off; an exposure_time_absolute or a gain named here is "
+               "not followed or locked."}),
+      option<&V::left_controls>(
+          {.key = "left_controls", .format = kControls, .description = "More controls of the left camera."}),
+      option<&V::right_controls>({.key = "right_controls",
+                                  .format = kControls,
+                                  .description = "More controls of the right camera."}),
+      choice<kSyncNames, &V::sync>(
+          {.key = "sync",
+           .description =
+               "Restarts of the camera that started last until both expose at the same time. start: after both began to stream. always: also when they have drifted apart by 2 × max_sync_skew_ms."}),
+      option<&V::max_sync_skew_ms>({.key = "max_sync_skew_ms",
+                                    .unit = "ms",
+                                    .minimum = 0.1,
+                                    .maximum = 100,
+                                    .description = "Time between the exposures that sync accepts."}),
+      option<&V::sync_attempts>({.key = "sync_attempts",
+                                 .minimum = 1,
+                                 .maximum = 100,
+                                 .description = "Maximum number of restarts by sync."}),
+  };
+  return table;
+}
+
 void read_v4l2_section(YamlSection& cameras_section, CamerasConfig& cameras) {
   YamlSection section = cameras_section.section("v4l2");
   V4l2Config& v4l2 = cameras.v4l2;
-  v4l2.left = read_device(section, "left", v4l2.left);
-  v4l2.right = read_device(section, "right", v4l2.right);
-  if (v4l2.left == v4l2.right && v4l2.left != "auto") {
-    section.fail("right", "found '" + v4l2.right + "', which is the left camera; name another one");
-  }
-  if ((v4l2.left == "auto") != (v4l2.right == "auto")) {
-    section.fail(v4l2.left == "auto" ? "left" : "right",
-                 "found 'auto' for one camera only, allowed is auto for both or a name for each");
-  }
-  v4l2.width = section.integer("width", v4l2.width, 64, 4096);
-  v4l2.height = section.integer("height", v4l2.height, 48, 4096);
-  v4l2.format = section.choice<std::string>(
-      "format", v4l2.format, "auto, gray, nv12, yu12, yuyv, uyvy, y10, y16 and mjpeg", parse_format);
-  v4l2.exposure =
-      section.choice<ExposureMode>("exposure", v4l2.exposure, "auto, lock and follow", parse_exposure);
-  v4l2.controls = section.integers("controls");
-  v4l2.left_controls = section.integers("left_controls");
-  v4l2.right_controls = section.integers("right_controls");
+  section.read(v4l2_options(), v4l2);
+  check_devices(section, v4l2);
   check_modes(section, v4l2.controls, v4l2.exposure);
   check_own_controls(section, "left_controls", v4l2.left_controls, v4l2.exposure);
   check_own_controls(section, "right_controls", v4l2.right_controls, v4l2.exposure);
-  v4l2.sync = section.choice<SyncMode>("sync", v4l2.sync, "never, start and always", parse_sync);
-  v4l2.max_sync_skew_ms = section.number("max_sync_skew_ms", v4l2.max_sync_skew_ms, 0.1, 100);
-  v4l2.sync_attempts = section.integer("sync_attempts", v4l2.sync_attempts, 1, 100);
   section.finish();
   if (cameras.source == SourceKind::kV4l2 && cameras.fps < 1) {
-    cameras_section.fail("fps", "found a rate below 1, allowed for cameras are 1 to 240");
+    cameras_section.fail("fps", "found " + significant(cameras.fps) + ", allowed for source v4l2 1…240");
   }
 }
 

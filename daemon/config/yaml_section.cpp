@@ -1,31 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/config/yaml_section.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <fstream>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <system_error>
+
+#include "daemon/base/file.h"
+#include "daemon/config/renamed_keys.h"
 
 namespace stereod {
 namespace {
-
-std::string plain(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
-template <typename Number>
-std::optional<Number> parse_number(const std::string& text) {
-  Number value{};
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || stop != end) return std::nullopt;
-  return value;
-}
 
 std::string kind_of(const YAML::Node& node) {
   if (node.IsMap()) return "a map";
@@ -38,27 +23,17 @@ std::string kind_of(const YAML::Node& node) {
 
 YAML::Node load_yaml_map(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) {
-    if (!error) throw FileError(file.string() + ": there is no such file");
-    throw FileError(
-        file.string() + ": cannot be reached (" + error.message() +
-        "); stereod must be allowed into its directory, and as a service it is kept out of home directories");
+  if (!std::filesystem::exists(file, error) && error) {
+    throw FileError(file.string() + ": cannot be reached (" + error.message() +
+                    "); give stereod access to its directory (as a service it has none to home directories)");
   }
-  if (std::filesystem::is_directory(file, error))
-    throw FileError(file.string() + ": this is a directory, not a file");
-  constexpr std::size_t kMaxFile = 1'000'000;  // bytes; a longer one is no configuration
-  std::ifstream in(file);
-  std::string text(kMaxFile + 1, '\0');
-  if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!in && !in.eof()) throw FileError(file.string() + ": cannot be read; check its permissions");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kMaxFile)
-    throw FileError(file.string() + ": is longer than a megabyte; this is no configuration");
+  constexpr std::size_t kMaxYamlBytes = 1'000'000;
+  const std::string text = read_text_file(file, kMaxYamlBytes);
   try {
     YAML::Node root = YAML::Load(text);
     if (!root.IsMap()) {
-      throw FileError(file.string() + ":1: expected a map of keys and values, found " +
-                      kind_of(root).substr(0, 40));
+      throw FileError(file.string() + ":1: found " + kind_of(root).substr(0, 40) +
+                      ", allowed a map of keys and values");
     }
     return root;
   } catch (const YAML::Exception& problem) {
@@ -73,12 +48,12 @@ YamlSection::YamlSection(std::filesystem::path file, const YAML::Node& map, std:
   for (const auto& entry : map_) {
     if (!entry.first.IsScalar()) {
       throw FileError(file_.string() + ":" + std::to_string(entry.first.Mark().line + 1) +
-                      ": a key must be a word");
+                      ": found a key that is not a word");
     }
     const std::string& key = entry.first.Scalar();
     if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
       throw FileError(file_.string() + ":" + std::to_string(entry.first.Mark().line + 1) + ": " +
-                      full_name(key) + ": stands here a second time; keep one of them");
+                      full_name(key) + ": is given twice; remove one of them");
     }
     seen.push_back(key);
   }
@@ -88,7 +63,7 @@ std::string YamlSection::full_name(const std::string& key) const {
   return path_.empty() ? key : path_ + "." + key;
 }
 
-// Does not use map_[key]: on a node that is not const it would add the key.
+// map_[key] would add the key to a node that is not const.
 YAML::Node YamlSection::find(const std::string& key) {
   asked_for_.push_back(key);
   for (const auto& entry : map_) {
@@ -125,64 +100,48 @@ void YamlSection::fail(const std::string& key, const std::string& complaint) con
 std::optional<std::string> YamlSection::scalar(const std::string& key) {
   const YAML::Node node = find(key);
   if (!node.IsDefined()) return std::nullopt;
-  if (!node.IsScalar()) fail(key, "found " + kind_of(node) + ", allowed is one value");
+  if (!node.IsScalar()) fail(key, "found " + kind_of(node) + ", allowed one value");
   return node.Scalar();
 }
 
-int YamlSection::integer(const std::string& key, int otherwise, int least, int most) {
-  const auto found = scalar(key);
-  if (!found) return otherwise;
-  const auto value = parse_number<int>(*found);
-  if (!value || *value < least || *value > most) {
-    fail(key, "found '" + *found + "', allowed are whole numbers from " + std::to_string(least) + " to " +
-                  std::to_string(most));
+std::optional<OptionValue> YamlSection::value(const OptionInfo& option) {
+  const std::string key(option.key);
+  if (option.type == OptionInfo::Type::kIntegers) {
+    asked_for_.push_back(key);
+    return has(key) ? std::optional<OptionValue>(integers(option)) : std::nullopt;
   }
-  return *value;
-}
-
-double YamlSection::number(const std::string& key, double otherwise, double least, double most) {
-  const auto found = scalar(key);
-  if (!found) return otherwise;
-  const auto value = parse_number<double>(*found);
-  if (!value || !std::isfinite(*value) || *value < least || *value > most) {
-    fail(key, "found '" + *found + "', allowed are numbers from " + plain(least) + " to " + plain(most));
+  const std::optional<std::string> found = scalar(key);
+  if (!found) return std::nullopt;
+  if (option.type == OptionInfo::Type::kFile) {
+    if (found->empty()) fail(key, complaint(option, *found));
+    return (file_.parent_path() / *found).string();
   }
-  return *value;
+  if (const std::optional<OptionValue> value = parse_value(option, *found)) return value;
+  const std::string_view renamed = new_value(full_name(key), *found);
+  fail(key, complaint(option, *found) +
+                (renamed.empty() ? "" : "; '" + *found + "' is now '" + std::string(renamed) + "'"));
 }
 
-bool YamlSection::flag(const std::string& key, bool otherwise) {
-  return choice<bool>(key, otherwise, "true and false", [](std::string_view text) -> std::optional<bool> {
-    if (text == "true") return true;
-    if (text == "false") return false;
-    return std::nullopt;
-  });
-}
-
-std::string YamlSection::text(const std::string& key, const std::string& otherwise) {
-  return scalar(key).value_or(otherwise);
-}
-
-std::filesystem::path YamlSection::file_name(const std::string& key) {
-  const auto found = scalar(key);
-  if (!found) return {};
-  if (found->empty()) fail(key, "found nothing, allowed is the name of a file");
-  return file_.parent_path() / *found;
-}
-
-double YamlSection::required_number(const std::string& key, double least, double most) {
+double YamlSection::required_number(const std::string& key, double minimum, double maximum) {
   require(key);
-  return number(key, 0, least, most);
+  return std::get<double>(
+      *value({.key = key, .type = OptionInfo::Type::kNumber, .minimum = minimum, .maximum = maximum}));
 }
 
-int YamlSection::required_integer(const std::string& key, int least, int most) {
+int YamlSection::required_integer(const std::string& key, int minimum, int maximum) {
   require(key);
-  return integer(key, 0, least, most);
+  return std::get<int>(*value({.key = key,
+                               .type = OptionInfo::Type::kInteger,
+                               .minimum = static_cast<double>(minimum),
+                               .maximum = static_cast<double>(maximum)}));
 }
 
 std::string YamlSection::required_text(const std::string& key) {
   require(key);
-  return text(key, "");
+  return text(key);
 }
+
+std::string YamlSection::text(const std::string& key) { return scalar(key).value_or(""); }
 
 std::vector<double> YamlSection::required_numbers(const std::string& key,
                                                   const std::vector<std::size_t>& counts) {
@@ -190,29 +149,26 @@ std::vector<double> YamlSection::required_numbers(const std::string& key,
   const YAML::Node node = find(key);
   if (!node.IsSequence() || std::find(counts.begin(), counts.end(), node.size()) == counts.end()) {
     std::string allowed;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-      if (i > 0) allowed += i + 1 < counts.size() ? ", " : " or ";
-      allowed += std::to_string(counts[i]);
-    }
+    for (const std::size_t count : counts) allowed += (allowed.empty() ? "" : ", ") + std::to_string(count);
     fail(key, "found " + (node.IsSequence() ? std::to_string(node.size()) + " values" : kind_of(node)) +
-                  ", allowed is a list of " + allowed + " numbers");
+                  ", allowed a list of numbers (" + allowed + ")");
   }
   std::vector<double> values;
   for (const YAML::Node& item : node) {
-    const auto value = item.IsScalar() ? parse_number<double>(item.Scalar()) : std::nullopt;
-    if (!value || !std::isfinite(*value))
-      fail(key, "found " + kind_of(item) + ", allowed are finite numbers");
+    const auto value = item.IsScalar() ? parse_number(item.Scalar()) : std::nullopt;
+    if (!value) fail(key, "found " + kind_of(item) + ", allowed finite numbers");
     values.push_back(*value);
   }
   return values;
 }
 
-std::map<std::string, int> YamlSection::integers(const std::string& key) {
-  YamlSection below = section(key);
-  std::map<std::string, int> values;
+NamedIntegers YamlSection::integers(const OptionInfo& option) {
+  YamlSection below = section(std::string(option.key));
+  NamedIntegers values;
   for (const auto& entry : below.map_) {
     const std::string& name = entry.first.Scalar();
-    values[name] = below.integer(name, 0, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+    values[name] =
+        below.required_integer(name, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
   }
   return values;
 }
@@ -221,7 +177,7 @@ YamlSection YamlSection::section(const std::string& key) {
   const YAML::Node node = find(key);
   if (!node.IsDefined()) return {file_, YAML::Node(YAML::NodeType::Map), full_name(key), 0};
   if (node.IsNull()) return {file_, YAML::Node(YAML::NodeType::Map), full_name(key), line_of(key)};
-  if (!node.IsMap()) fail(key, "found " + kind_of(node) + ", allowed is a map of keys and values");
+  if (!node.IsMap()) fail(key, "found " + kind_of(node) + ", allowed a map of keys and values");
   return {file_, node, full_name(key)};
 }
 
@@ -234,6 +190,9 @@ void YamlSection::finish() const {
   for (const auto& entry : map_) {
     const std::string& key = entry.first.Scalar();
     if (std::find(asked_for_.begin(), asked_for_.end(), key) != asked_for_.end()) continue;
+    if (const std::string_view renamed = new_key(full_name(key)); !renamed.empty()) {
+      fail(key, "is not a known key; it is now '" + std::string(renamed) + "'");
+    }
     const auto nearest = std::min_element(
         asked_for_.begin(), asked_for_.end(),
         [&](const auto& a, const auto& b) { return edit_distance(key, a) < edit_distance(key, b); });

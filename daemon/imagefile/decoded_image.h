@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/image.h"
+#include "core/base/limits.h"
 
 namespace stereod {
 
@@ -45,9 +46,6 @@ struct DecodedImage {
     }
   }
 };
-
-/// The longest side, in pixels, of a image that is read or written.
-inline constexpr int kMaxImageFileSide = 16384;
 
 /// Throws FileError if a image that claims to be this large is too large, or empty.
 void check_picture_size(const std::string& file, long long width, long long height);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/cpu.h"
+#include "core/base/text.h"
 #include "daemon/base/clocks.h"
 #include "daemon/lcm/limits.h"
 #include "daemon/pipeline/worker_scheduling.h"
@@ -43,9 +44,8 @@ std::string describe(const Config& config) {
 // What is published of images of this size. Throws std::invalid_argument if there is no such region.
 PublishedPixels published_pixels(const PublishConfig& publish, Size size) {
   if (size.width > kMaxImageSide || size.height > kMaxImageSide) {
-    throw std::invalid_argument("the cameras give images of " + std::to_string(size.width) + "×" +
-                                std::to_string(size.height) + "; what can be published is " +
-                                std::to_string(kMaxImageSide) + " a side");
+    throw std::invalid_argument("the cameras give images of " + to_string(size) +
+                                "; what can be published is " + std::to_string(kMaxImageSide) + " a side");
   }
   if (const auto problem = region_problem(publish, size)) throw std::invalid_argument(*problem);
   return {publish, size};

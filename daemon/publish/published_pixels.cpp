@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/text.h"
+
 namespace stereod {
 namespace {
 
@@ -27,12 +29,11 @@ std::optional<std::string> region_problem(const PublishConfig& publish, Size ima
     return std::nullopt;
   }
   const auto numbers = [](int width, int height, int left, int top) {
-    return std::to_string(width) + "×" + std::to_string(height) + " pixels from column " +
-           std::to_string(left) + ", row " + std::to_string(top) + " on";
+    return to_string(Size{width, height}) + " pixels from column " + std::to_string(left) + ", row " +
+           std::to_string(top) + " on";
   };
   return "found " + numbers(publish.width, publish.height, publish.left, publish.top) +
-         " (0: up to the edge), but the images are " + std::to_string(image.width) + "×" +
-         std::to_string(image.height) + "; allowed is what lies in them";
+         " (0: up to the edge), but the images are " + to_string(image) + "; allowed is what lies in them";
 }
 
 ColumnRange columns_to_match(const MatcherOptions& options, Size image, ColumnRange wanted) {

@@ -12,6 +12,9 @@
 namespace stereod {
 
 void check_config(const Config& config, const std::filesystem::path& file) {
+  if (const auto problem = problem_for_daemon(config)) {
+    throw FileError(place_of(file, problem->key) + ": " + problem->message);
+  }
   try {
     url_to_publish(config.lcm.url);
   } catch (const BusError& error) {

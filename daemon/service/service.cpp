@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/text.h"
 #include "daemon/base/clocks.h"
 #include "daemon/lcm/url.h"
 #include "daemon/service/checks.h"
@@ -30,9 +31,8 @@ bool same_cameras(CamerasConfig a, const CamerasConfig& b) {
 
 std::string in_words(const Pipeline& pipeline) {
   const Size size = pipeline.rig().left->frame_size();
-  return std::string(name_of(pipeline.config().cameras.source)) + " at " + std::to_string(size.width) + "×" +
-         std::to_string(size.height) + ", matcher " + pipeline.matcher_description() + ", channels " +
-         pipeline.config().lcm.prefix + "_*";
+  return std::string(name_of(pipeline.config().cameras.source)) + " at " + to_string(size) + ", matcher " +
+         pipeline.matcher_description() + ", channels " + pipeline.config().lcm.prefix + "_*";
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "core/base/text.h"
 #include "daemon/visual/color_map.h"
 #include "daemon/visual/tiny_font.h"
 
@@ -15,12 +15,6 @@ namespace {
 constexpr Rgb kBackground{20, 20, 22};
 constexpr Rgb kTextColor{214, 214, 218};
 constexpr Rgb kTickColor{150, 150, 156};
-
-std::string number_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
 
 void fill(ImageView<Rgb> picture, int x, int y, int width, int height, Rgb color) {
   for (int row = y; row < y + height; ++row) std::fill_n(picture.row(row) + x, width, color);
@@ -43,7 +37,7 @@ std::vector<ScaleTick> disparity_ticks(const DisparityRange& range, double least
   for (double number = std::ceil(range.far_px / step - 1e-6); number * step <= range.near_px + 1e-6 * span;
        ++number) {
     const double disparity = number == 0 ? 0 : number * step;  // not −0
-    ticks.push_back({(disparity - range.far_px) / span, number_text(disparity)});
+    ticks.push_back({(disparity - range.far_px) / span, significant(disparity)});
   }
   return ticks;
 }
@@ -62,7 +56,7 @@ std::vector<ScaleTick> depth_ticks(const DisparityRange& range, const DepthScale
         const bool crowded = std::any_of(ticks.begin(), ticks.end(), [&](const ScaleTick& other) {
           return std::abs(other.nearness - nearness) < least_gap;
         });
-        if (!crowded) ticks.push_back({nearness, number_text(depth)});
+        if (!crowded) ticks.push_back({nearness, significant(depth)});
       }
     }
   }

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/base/text.h"
+
 namespace stereod::bench {
 namespace {
 
@@ -60,10 +62,10 @@ void apply(MatcherOptions& options, const std::string& setting) {
 MatcherOptions custom_preset(const std::string& base, const std::vector<std::string>& settings) {
   std::optional<MatcherOptions> options = matcher_preset(base);
   if (!options) {
-    throw std::runtime_error("--base " + base + ": allowed are " + std::string(kMatcherPresets));
+    throw std::runtime_error("--base " + base + ": allowed are " + joined(kMatcherPresets));
   }
   for (const std::string& setting : settings) apply(*options, setting);
-  if (const std::optional<std::string> problem = problem_with(*options)) throw std::runtime_error(*problem);
+  if (const std::optional<std::string> problem = problem_with(*options)) throw std::runtime_error(to_string(*problem));
   return *options;
 }
 
@@ -77,7 +79,7 @@ QualityArguments parse_quality_arguments(int argc, const char* const* argv) {
   app.add_option("--sets", arguments.sets, "only these sets: NAME,...")->delimiter(',');
   app.add_option("--matchers", arguments.matchers, "only these: BM (always there), SGBM, presets, custom")
       ->delimiter(',');
-  app.add_option("--base", base, "the preset that --set changes: " + std::string(kMatcherPresets));
+  app.add_option("--base", base, "the preset that --set changes: " + joined(kMatcherPresets));
   app.add_option("--set", settings, "one more preset, called custom: KEY=VALUE; may be given again")
       ->allow_extra_args(false);
   app.add_option("--images", arguments.pictures, "write a PNG for each set into this directory");

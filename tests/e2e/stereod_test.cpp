@@ -399,8 +399,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadStart{"ImpossibleIsa",
                  "cameras: {source: synthetic, synthetic: {width: 64, height: 48}}\nmatcher: {isa: " +
                      foreign_isa() + "}\n",
-                 "bad.yaml:2: matcher.isa: isa is " + foreign_isa() +
-                     ", which this CPU or this build does not have"},
+                 "bad.yaml:2: matcher.isa: isa " + foreign_isa() +
+                     " is not available on this CPU or in this build"},
         BadStart{"TooManyRows", "cameras: {source: synthetic}\nlcm: {rows_per_message: 200}\n",
                  "bad.yaml:2: lcm.rows_per_message: found 200"},
         BadStart{"RegionOutside",

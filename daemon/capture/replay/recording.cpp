@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/base/text.h"
 #include "daemon/base/file_error.h"
 #include "daemon/imagefile/read_image.h"
 
@@ -143,12 +144,10 @@ std::vector<PairFiles> find_pairs(const fs::path& directory) {
 
 namespace {
 
-std::string words_for(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
-
 void require_size(const fs::path& path, Size found, Size wanted, const fs::path& first) {
   if (found == wanted) return;
-  throw FileError(path.string() + ": has " + words_for(found) + " pixels, but " + first.filename().string() +
-                  " has " + words_for(wanted) + "; all images of a recording must have one size");
+  throw FileError(path.string() + ": has " + to_string(found) + " pixels, but " + first.filename().string() +
+                  " has " + to_string(wanted) + "; all images of a recording must have one size");
 }
 
 std::vector<RecordedPair> load(const std::vector<PairFiles>& files, const fs::path& name) {
@@ -161,7 +160,7 @@ std::vector<RecordedPair> load(const std::vector<PairFiles>& files, const fs::pa
     const std::size_t bytes =
         2 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     if (files.size() > kMemoryLimit / bytes) {
-      throw FileError(name.string() + ": " + std::to_string(files.size()) + " pairs of " + words_for(size) +
+      throw FileError(name.string() + ": " + std::to_string(files.size()) + " pairs of " + to_string(size) +
                       " pixels do not fit into 1 GiB, the most that is replayed; take out some");
     }
     pairs.push_back(std::move(pair));

@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "core/base/text.h"
 #include "core/base/worker_pool.h"
 #include "core/geometry/depth.h"
 
@@ -76,8 +77,7 @@ SyntheticScene::View SyntheticScene::make_view(const CameraCalibration& calibrat
                                                std::uint64_t noise_seed) const {
   const Size size = calibration.camera.image;
   if (size.width < 64 || size.height < 48) {
-    throw std::invalid_argument("a scene is at least 64×48 pixels large, not " + std::to_string(size.width) +
-                                "×" + std::to_string(size.height));
+    throw std::invalid_argument("a scene is at least 64×48 pixels large, not " + to_string(size));
   }
   if (!(calibration_.baseline_m > 0)) throw std::invalid_argument("a scene's baseline is greater than 0 m");
   View view{static_cast<float>(origin_x),

@@ -1,9 +1,9 @@
 #include "daemon/capture/v4l2/camera_list.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 
+#include "core/base/text.h"
 #include "daemon/capture/v4l2/pixel_format.h"
 #include "daemon/capture/v4l2/video_device.h"
 
@@ -16,20 +16,14 @@ std::string row(const std::string& label, const std::string& text) {
   return line + "  " + text + "\n";
 }
 
-std::string rate(double fps) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", fps);
-  return text;
-}
-
 std::string sizes_of(VideoDevice& device, std::uint32_t pixels) {
   std::string text;
   for (const Size size : device.sizes(pixels)) {
     if (!text.empty()) text += ", ";
-    text += std::to_string(size.width) + "×" + std::to_string(size.height);
+    text += to_string(size);
     std::string rates;
     for (const double fps : device.rates(pixels, size).listed)
-      rates += (rates.empty() ? " at " : " ") + rate(fps);
+      rates += (rates.empty() ? " at " : " ") + significant(fps, 4);
     text += rates;
   }
   return text.empty() ? "any size" : text;

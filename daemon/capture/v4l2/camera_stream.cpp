@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
+
+#include "core/base/text.h"
 
 namespace stereod {
 namespace {
@@ -10,21 +11,13 @@ namespace {
 // Numbers of buffers that a lease carries: the driver's from 0 on, then the decoded images.
 constexpr int kFirstPicture = 1000;
 
-std::string in_words(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
-
-std::string rate_in_words(double fps) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g/s", fps);
-  return text;
-}
-
 }  // namespace
 
 std::string describe(const StreamInfo& info) {
   if (info.pixels == nullptr) return {};
   const std::string how = info.converted ? " (converted by libv4l2)" : "";
-  return fourcc_name(info.format.pixels) + " " + in_words(info.format.size) + " at " +
-         rate_in_words(info.fps) + how;
+  return fourcc_name(info.format.pixels) + " " + to_string(info.format.size) + " at " +
+         significant(info.fps, 4) + "/s" + how;
 }
 
 CameraStream::CameraStream(VideoSystem& system, Size size) : system_(system), device_(system) {
@@ -90,7 +83,7 @@ std::optional<CameraFault> CameraStream::choose(const StreamOptions& options, Fo
 
 CameraFault CameraStream::no_format(const StreamOptions& options,
                                     const std::vector<OfferedFormat>& offers) const {
-  std::string sentence = options.node + " (" + info_.device.card + ") has no " + in_words(options.size) +
+  std::string sentence = options.node + " (" + info_.device.card + ") has no " + to_string(options.size) +
                          (options.format == "auto" ? "" : " as " + options.format) + "; ";
   if (offers.empty()) {
     sentence += "'stereod --list-cameras' shows the sizes it has";
@@ -117,8 +110,8 @@ std::optional<CameraFault> CameraStream::agree_on_format(const StreamOptions& op
   if (info_.format.pixels == request.pixels && info_.format.size == options.size) return std::nullopt;
   return CameraFault{CameraReason::kOtherFormat, SetupStage::kSetFormat, 0,
                      options.node + " was asked for " + fourcc_name(request.pixels) + " " +
-                         in_words(options.size) + " and gives " + fourcc_name(info_.format.pixels) + " " +
-                         in_words(info_.format.size) + "; set cameras.v4l2 to what it gives"};
+                         to_string(options.size) + " and gives " + fourcc_name(info_.format.pixels) + " " +
+                         to_string(info_.format.size) + "; set cameras.v4l2 to what it gives"};
 }
 
 std::optional<CameraFault> CameraStream::map_buffers(const std::string& node) {

@@ -1,144 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/match/match_arguments.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 #include <thread>
 #include <vector>
 
+#include "core/match/option_table.h"
+#include "daemon/config/sections.h"
 #include "daemon/imagefile/disparity_file.h"
 
 namespace stereod {
 
 namespace {
 
-/// The flags as they stand on the command line.
+/// Holds the value of a flag that a table of options describes.
+struct TableFlag {
+  std::optional<std::string> text;
+  bool yes = false, no = false;  ///< --KEY and --no-KEY of an option that is true or false
+};
+
+/// Holds the flags as they stand on the command line.
 struct Flags {
   std::string left, right;
   std::optional<std::string> output, color, calibration, config, ground_truth;
   std::vector<std::string> rectified;
-  std::optional<std::string> preset, method, grid, implementation, isa, cost;
-  std::optional<int> disparities, min_disparity, window, p1, p2, census_weight, gradient_limit, threads,
-      repeat;
-  std::optional<std::string> interpolation;
-  std::optional<double> gt_scale, alpha;
-  bool fill = false, no_fill = false;
+  std::optional<std::string> preset;
+  std::vector<TableFlag> matcher = std::vector<TableFlag>(matcher_option_table().size());
+  std::vector<TableFlag> rectify = std::vector<TableFlag>(rectify_options().size());
+  std::optional<int> threads, repeat;
+  std::optional<double> gt_scale;
 };
+
+/// Returns "--min-disparity" for the key min_disparity.
+std::string flag_of(std::string_view key, const char* prefix = "--") {
+  std::string flag = prefix + std::string(key);
+  std::replace(flag.begin(), flag.end(), '_', '-');
+  return flag;
+}
+
+/// Returns the text about an option in --help.
+std::string help_of(const OptionInfo& option) {
+  std::string text(first_sentence(option));
+  text.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(text.front())));
+  if (option.type != OptionInfo::Type::kFlag) text += ": " + range_text(option);
+  if (option.only_with.starts_with("method: "))
+    text += ", only with --method " + std::string(option.only_with.substr(8));
+  return text;
+}
+
+/// Declares a flag for each option of the table.
+template <typename Settings>
+void declare_table(CLI::App& app, const std::vector<Option<Settings>>& table, std::vector<TableFlag>& flags,
+                   const char* group) {
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const std::string flag = flag_of(table[i].key);
+    if (table[i].type == OptionInfo::Type::kFlag) {
+      const std::string off = flag_of(table[i].key, "--no-");
+      app.add_flag(flag, flags[i].yes, help_of(table[i]))->group(group);
+      app.add_flag(off, flags[i].no, "the opposite of " + flag)->excludes(flag)->group(group);
+    } else {
+      app.add_option(flag, flags[i].text, help_of(table[i]))->group(group);
+    }
+  }
+}
+
+bool is_given(const TableFlag& flag) { return flag.text || flag.yes || flag.no; }
+
+/// Sets what the flags say.
+template <typename Settings>
+void apply_table(const std::vector<Option<Settings>>& table, const std::vector<TableFlag>& flags,
+                 Settings& settings) {
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (!is_given(flags[i])) continue;
+    const std::string text = flags[i].text.value_or(flags[i].yes ? "true" : "false");
+    const std::optional<OptionValue> value = parse_value(table[i], text);
+    if (!value) throw UsageError(flag_of(table[i].key) + ": " + complaint(table[i], text));
+    table[i].set(settings, *value);
+  }
+}
 
 void declare(CLI::App& app, Flags& flags) {
   app.add_option("LEFT", flags.left, "left image, the reference: PNG, JPEG, PGM or PPM")->required();
   app.add_option("RIGHT", flags.right, "right image of the same size")->required();
   app.add_option("-o,--output", flags.output, "disparities: .pfm (Middlebury) or .png (16 bit, KITTI)");
-  app.add_option("--color", flags.color, "a image for a person, with a scale: .png");
-  app.add_option("--preset", flags.preset,
-                 "matcher settings, also instead of all those in --config: " + std::string(kMatcherPresets));
+  app.add_option("--color", flags.color, "an image for a person, with a scale: .png");
+  app.add_option(
+      "--preset", flags.preset,
+      "settings of the matcher, instead of those in --config: " + range_text(matcher_preset_option()));
   app.add_option("--config", flags.config,
                  "take the settings of matcher and rectification from a stereod.yaml");
-  app.add_option("--disparities", flags.disparities, "how many disparities are searched, 1 to 256");
-  app.add_option("--min-disparity", flags.min_disparity, "the first of them, in pixels");
-  app.add_option("--method", flags.method, "the matcher: block or semiglobal; default: the preset's");
-  app.add_option("--window", flags.window, "block: side of the support window, odd, 3 to 31 pixels");
-  app.add_option("--grid", flags.grid, "semiglobal: coarse, or fine for thin things");
-  app.add_option("--p1", flags.p1, "semiglobal: what a step of one disparity costs, 0 to 255");
-  app.add_option("--p2", flags.p2, "semiglobal: what a larger step costs at most, 0 to 255");
-  app.add_option("--census-weight", flags.census_weight,
-                 "semiglobal: what each census bit that differs costs, 0 to 16");
-  app.add_option("--gradient-limit", flags.gradient_limit,
-                 "semiglobal: what differing gradients cost at most, 0 to 64");
-  app.add_flag("--hole-filling", flags.fill,
-               "semiglobal: pixels without a match get that of a neighbor, in images and files too");
-  app.add_flag("--no-hole-filling", flags.no_fill, "semiglobal: they do not, whatever the preset says")
-      ->excludes("--hole-filling");
-  app.add_option("--cost", flags.cost, "sad, ssd or mad (the last two: only --implementation naive)");
-  app.add_option("--implementation", flags.implementation, "naive, sliding or simd");
-  app.add_option("--isa", flags.isa, "instruction set for simd: auto, scalar, ssse3, sse41, avx2 or neon");
   app.add_option("--threads", flags.threads, "1 to 256; default: one for each CPU");
   app.add_option("--calibration", flags.calibration, "rectify both images first, by this calibration.yaml");
-  app.add_option("--interpolation", flags.interpolation, "with --calibration: bilinear (default) or nearest");
-  app.add_option("--alpha", flags.alpha,
-                 "with --calibration: from 0, only what both cameras have pixels for, to 1, all of it");
   app.add_option("--rectified", flags.rectified, "write the two images that were matched: .png .png")
       ->expected(2);
   app.add_option("--ground-truth", flags.ground_truth, "compare with the true disparities: image or .pfm");
   app.add_option("--gt-scale", flags.gt_scale, "gray levels per pixel of disparity in that image; default 1");
   app.add_option("--repeat", flags.repeat, "match so many times more and print the median time");
+  declare_table(app, matcher_option_table(), flags.matcher, "Matcher (defaults: those of the preset)");
+  declare_table(app, rectify_options(), flags.rectify, "Rectification (with --calibration)");
 }
 
-template <typename Value>
-Value named(const std::optional<Value>& value, const std::string& name, const char* flag,
-            const std::string& allowed) {
-  if (value) return *value;
-  throw UsageError(std::string(flag) + ": '" + name + "' is not known; allowed are " + allowed);
-}
-
-void apply_method(const Flags& flags, MatcherOptions& options) {
-  if (flags.method) {
-    options.method = named(parse_method(*flags.method), *flags.method, "--method", "block, semiglobal");
+/// Refuses flags of the method that is not selected.
+void check_methods(const Flags& flags, Method method) {
+  for (std::size_t i = 0; i < flags.matcher.size(); ++i) {
+    const MatcherOption& option = matcher_option_table()[i];
+    // --no-KEY asks for what the other method does anyway.
+    if (!is_given(flags.matcher[i]) || flags.matcher[i].no || belongs_to(option, method)) continue;
+    throw UsageError(flag_of(option.key) + ": belongs to --method " +
+                     std::string(option.only_with.substr(option.only_with.find(' ') + 1)) +
+                     ", but the method is " + std::string(name_of(method)));
   }
-  const auto refuse = [&](bool given, const char* flag, Method owner) {
-    if (given && options.method != owner) {
-      throw UsageError(std::string(flag) + ": belongs to --method " + std::string(name_of(owner)) +
-                       "; the one chosen is " + std::string(name_of(options.method)));
-    }
-  };
-  refuse(flags.window.has_value(), "--window", Method::kBlock);
-  refuse(flags.grid.has_value(), "--grid", Method::kSemiglobal);
-  refuse(flags.p1.has_value(), "--p1", Method::kSemiglobal);
-  refuse(flags.p2.has_value(), "--p2", Method::kSemiglobal);
-  refuse(flags.census_weight.has_value(), "--census-weight", Method::kSemiglobal);
-  refuse(flags.gradient_limit.has_value(), "--gradient-limit", Method::kSemiglobal);
-  refuse(flags.fill, "--hole-filling", Method::kSemiglobal);
-  options.window = flags.window.value_or(options.window);
-  if (flags.grid) options.grid = named(parse_grid(*flags.grid), *flags.grid, "--grid", "coarse, fine");
-  options.p1 = flags.p1.value_or(options.p1);
-  options.p2 = flags.p2.value_or(options.p2);
-  options.census_weight = flags.census_weight.value_or(options.census_weight);
-  options.gradient_limit = flags.gradient_limit.value_or(options.gradient_limit);
-  options.hole_filling = (options.hole_filling || flags.fill) && !flags.no_fill;
 }
 
 MatcherOptions matcher_options(const Flags& flags, const Config& config) {
   MatcherOptions options = config.matcher;
   if (flags.preset) {
-    options = named(matcher_preset(*flags.preset), *flags.preset, "--preset", std::string(kMatcherPresets));
+    const std::optional<MatcherOptions> preset = matcher_preset(*flags.preset);
+    if (!preset) throw UsageError("--preset: " + complaint(matcher_preset_option(), *flags.preset));
+    options = *preset;
   }
-  options.disparities = flags.disparities.value_or(options.disparities);
-  options.min_disparity = flags.min_disparity.value_or(options.min_disparity);
-  apply_method(flags, options);
-  if (flags.cost) options.cost = named(parse_cost(*flags.cost), *flags.cost, "--cost", "sad, ssd, mad");
-  if (flags.implementation) {
-    options.implementation = named(parse_implementation(*flags.implementation), *flags.implementation,
-                                   "--implementation", "naive, sliding, simd");
+  apply_table(matcher_option_table(), flags.matcher, options);
+  check_methods(flags, options.method);
+  if (const std::optional<Problem> problem = problem_with(options)) {
+    const bool remedy = problem->key == "hole_filling";
+    throw UsageError(flag_of(problem->key) + ": " + problem->message +
+                     (remedy ? "; add " + flag_of(problem->key, "--no-") : ""));
   }
-  if (flags.isa) {
-    options.isa = named(parse_isa(*flags.isa), *flags.isa, "--isa", "auto, scalar, ssse3, sse41, avx2, neon");
-  }
-  if (const std::optional<std::string> problem = problem_with(options)) throw UsageError(*problem);
   return options;
 }
 
-RectifyConfig rectify_options(const Flags& flags, const Config& config) {
+RectifyConfig rectify_settings(const Flags& flags, const Config& config) {
   RectifyConfig rectify = config.rectify;
-  if (!flags.calibration && (flags.interpolation || flags.alpha)) {
-    throw UsageError(std::string(flags.alpha ? "--alpha" : "--interpolation") +
-                     ": belongs to --calibration, which is not there");
+  for (std::size_t i = 0; i < flags.rectify.size(); ++i) {
+    if (!is_given(flags.rectify[i]) || flags.calibration) continue;
+    throw UsageError(flag_of(rectify_options()[i].key) + ": belongs to --calibration, which is missing");
   }
-  if (flags.interpolation) {
-    rectify.interpolation = named(parse_interpolation(*flags.interpolation), *flags.interpolation,
-                                  "--interpolation", "nearest, bilinear");
-  }
-  if (flags.alpha) rectify.alpha = flags.alpha;
-  if (rectify.alpha && !(*rectify.alpha >= 0 && *rectify.alpha <= 1)) {
-    throw UsageError("--alpha: 0 to 1 is allowed");
-  }
+  apply_table(rectify_options(), flags.rectify, rectify);
   return rectify;
 }
 
-int in_range(int value, int least, int most, const char* flag) {
-  if (value >= least && value <= most) return value;
-  throw UsageError(std::string(flag) + ": is " + std::to_string(value) + "; " + std::to_string(least) +
-                   " to " + std::to_string(most) + " is allowed");
+int in_range(int value, int minimum, int maximum, const char* flag) {
+  if (value >= minimum && value <= maximum) return value;
+  throw UsageError(std::string(flag) + ": found " + std::to_string(value) + ", allowed " +
+                   std::to_string(minimum) + "…" + std::to_string(maximum));
 }
 
 std::filesystem::path png_name(const std::string& name) {
@@ -175,7 +183,7 @@ MatchArguments checked(const Flags& flags) {
   Config config;
   if (flags.config) config = read_config(*flags.config);
   arguments.matcher = matcher_options(flags, config);
-  arguments.rectify = rectify_options(flags, config);
+  arguments.rectify = rectify_settings(flags, config);
   return arguments;
 }
 

@@ -1,21 +1,17 @@
-// What stereo-match is asked to do.
+// SPDX-License-Identifier: BSD-3-Clause
+// Parses the command line of stereo-match.
 #pragma once
 
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <variant>
 
 #include "core/match/options.h"
+#include "daemon/base/usage_error.h"
 #include "daemon/config/config.h"
 
 namespace stereod {
-
-/// A command line that makes no sense; what() is one sentence.
-class UsageError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 struct RectifiedFiles {
   std::filesystem::path left;
@@ -27,7 +23,7 @@ struct MatchArguments {
   std::filesystem::path right;
   MatcherOptions matcher;
   int threads = 1;
-  int repeat = 0;  ///< measured runs; 0: nothing is measured
+  int repeat = 0;  ///< measured runs; 0: none
   std::optional<std::filesystem::path> output;
   std::optional<std::filesystem::path> color;
   std::optional<RectifiedFiles> rectified;
@@ -37,14 +33,14 @@ struct MatchArguments {
   double ground_truth_scale = 1;
 };
 
-/// Help or version: a text to print instead of working.
+/// Holds a text to print instead of matching: help or version.
 struct TextToPrint {
   std::string text;
 };
 
-/// Takes the command line apart. The settings of matcher and rectification are the daemon's defaults,
-/// replaced by the configuration's, replaced by the preset's, then each changed by its own flag. Throws
-/// UsageError, FileError for the configuration.
+/// Parses the command line. The settings of matcher and rectification are the daemon's defaults, replaced by those of
+/// the configuration file, replaced by those of the preset, each changed by its own flag.
+/// @throws UsageError; FileError for the configuration file.
 std::variant<MatchArguments, TextToPrint> parse_match_arguments(int argc, const char* const* argv);
 
 }  // namespace stereod

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/text.h"
 #include "core/base/worker_pool.h"
 #include "core/geometry/depth.h"
 #include "core/geometry/stereo_rectification.h"
@@ -39,14 +40,12 @@ struct Pair {
   Picture left, right;
 };
 
-std::string words_for(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
-
 /// `what` is how the file has its size: "has", "is for".
 void require_size(const std::filesystem::path& file, const char* what, Size found,
                   const std::filesystem::path& reference, Size wanted) {
   if (found == wanted) return;
-  throw FileError(file.string() + ": " + what + " " + words_for(found) + " pixels, but " +
-                  reference.string() + " has " + words_for(wanted) + "; they must have one size");
+  throw FileError(file.string() + ": " + what + " " + to_string(found) + " pixels, but " +
+                  reference.string() + " has " + to_string(wanted) + "; they must have one size");
 }
 
 Picture rectified(const GrayImage& source, const CameraCalibration& calibration, Interpolation interpolation,

@@ -3,24 +3,11 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "daemon/base/text.h"
+
 namespace stereod {
-
-/// `text` from the network made fit for a terminal: control characters (escape sequences among them) and
-/// bytes that are not UTF-8 become '?'.
-std::string printable(std::string_view text);
-
-/// Columns that a terminal needs for printable text: one for each character.
-std::size_t display_width(std::string_view text);
-
-/// A number with so many digits after the point, or "-" if it is none.
-std::string fixed(double value, int digits);
-
-/// `text` broken at spaces into lines of up to `width` columns; a word longer than that is cut. At least one
-/// line.
-std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 
 /// Rows of cells, each column as wide as its widest cell, two spaces between. Cells are wrapped at a column's
 /// greatest width.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "daemon/tools/tap/text_table.h"
+#include "daemon/base/text.h"
 
 namespace stereod {
 namespace {

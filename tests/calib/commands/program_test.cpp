@@ -13,7 +13,7 @@
 #include "calib/board/board_finder.h"
 #include "calib/interop/interop.h"
 #include "core/geometry/stereo_rectification.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 #include "daemon/config/calibration_file.h"
 #include "daemon/imagefile/read_image.h"
 #include "daemon/imagefile/write_image.h"
@@ -125,20 +125,20 @@ TEST_F(Program, BadInputIsOneSentenceAndTouchesNothing) {
       {{"solve", directory_.path().string(), "--square", "25mm", "-o", file("c.yaml")},
        "there is no stereo pair"},
       {{"solve", pairs_->path().string(), "--square", "25mm", "-o", file("none/c.yaml")},
-       "there is no directory"},
+       "the directory to write to does not exist"},
       {{"solve", pairs_->path().string(), "--square", "25mm", "--sqare", "1"}, "--sqare"},
-      {{"check", file("c.yaml"), pairs_->path().string()}, "expected a map"},
-      {{"check", file("none.yaml"), pairs_->path().string()}, "there is no such file"},
+      {{"check", file("c.yaml"), pairs_->path().string()}, "allowed a map of keys and values"},
+      {{"check", file("none.yaml"), pairs_->path().string()}, "the file does not exist"},
       {{"check", file("good.yaml"), pairs_->path().string(), "--daemon"}, "not both"},
       {{"check", file("good.yaml"), "--daemon", "--config", "x.yaml"}, "say where the images come from"},
-      {{"check", file("good.yaml"), "--config", file("none.yaml")}, "there is no such file"},
+      {{"check", file("good.yaml"), "--config", file("none.yaml")}, "the file does not exist"},
       {{"check", file("good.yaml")}, "there are no images"},
       {{"import", "-o", file("c.yaml")}, "--ros, --opencv or --kalibr"},
-      {{"import", "--kalibr", file("none.yaml"), "-o", file("c.yaml")}, "there is no such file"},
+      {{"import", "--kalibr", file("none.yaml"), "-o", file("c.yaml")}, "the file does not exist"},
       {{"import", "--opencv", left(0), left(1), "-o", file("c.yaml")}, "FileStorage"},
       {{"board", "--paper", "a9"}, "--paper: found 'a9'"},
       {{"board", "-o", file("board.doc")}, "written as .pdf or .svg"},
-      {{"capture", "--config", file("none.yaml"), "--square", "25mm"}, "there is no such file"},
+      {{"capture", "--config", file("none.yaml"), "--square", "25mm"}, "the file does not exist"},
       {{"capture", "--square", "25mm", "-o", file("c.yaml")}, "say where the images come from"},
       {{}, "subcommand"},
   };
@@ -324,9 +324,10 @@ TEST_F(Program, LinksStayWhatTheyPointToIsReplaced) {
   fs::create_symlink("nowhere/c.yaml", directory_ / "broken.yaml");
   fs::create_symlink("circle.yaml", directory_ / "circle.yaml");
   fs::create_symlink("/dev/null", directory_ / "null.yaml");
-  EXPECT_THAT(import(file("l.yaml"), file("broken.yaml")).err, HasSubstr("there is no directory"));
+  EXPECT_THAT(import(file("l.yaml"), file("broken.yaml")).err,
+              HasSubstr("the directory to write to does not exist"));
   EXPECT_THAT(import(file("l.yaml"), file("circle.yaml")).err, HasSubstr("leads in a circle"));
-  EXPECT_THAT(import(file("l.yaml"), file("null.yaml")).err, HasSubstr("a device or a pipe"));
+  EXPECT_THAT(import(file("l.yaml"), file("null.yaml")).err, HasSubstr("a device, pipe or socket"));
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 

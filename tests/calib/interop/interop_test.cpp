@@ -13,8 +13,8 @@
 
 #include "calib/quality/distortion_foldover.h"
 #include "core/geometry/stereo_rectification.h"
+#include "daemon/base/file.h"
 #include "daemon/base/file_error.h"
-#include "daemon/base/text_file.h"
 #include "tests/support/board_scene.h"
 #include "tests/support/image_files.h"
 #include "tests/support/temporary_directory.h"

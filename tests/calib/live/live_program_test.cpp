@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/geometry/stereo_rectification.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 #include "daemon/capture/synthetic/synthetic_scene.h"
 #include "daemon/config/calibration_file.h"
 #include "daemon/imagefile/write_image.h"

@@ -13,7 +13,7 @@
 #include "calib/report/report.h"
 #include "calib/solve/solve.h"
 #include "core/geometry/depth.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 #include "daemon/capture/synthetic/synthetic_scene.h"
 #include "daemon/config/calibration_file.h"
 #include "daemon/tools/tap/frame_listener.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "calib/report/report.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 #include "daemon/imagefile/read_image.h"
 #include "tests/support/board_scene.h"
 #include "tests/support/run_program.h"

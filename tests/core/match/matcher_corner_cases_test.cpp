@@ -251,7 +251,7 @@ TEST(MatcherCorners, RefusesOptionsThatCannotBe) {
   try {
     make_band_matcher(options, {64, 48});
   } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(error.what(), problem_with(options).value());
+    EXPECT_EQ(error.what(), to_string(problem_with(options).value()));
   }
 }
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tests the options of the matchers: ranges, combinations, names, presets, the table.
 #include "core/match/options.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "core/match/option_table.h"
+
 namespace stereod {
 namespace {
 
@@ -18,7 +22,7 @@ MatcherOptions changed(const std::function<void(MatcherOptions&)>& change) {
   return options;
 }
 
-/// An option out of its range, and what the sentence about it has to contain.
+/// An option out of its range, and what the message about it must contain.
 struct BadOption {
   std::string option;
   std::string found;
@@ -112,24 +116,25 @@ const std::vector<BadOption>& bad_options() {
 
 class ProblemWith : public testing::TestWithParam<BadOption> {};
 
-TEST_P(ProblemWith, NamesTheOptionWhatWasFoundAndWhatIsAllowed) {
+TEST_P(ProblemWith, BadOption_NamesFoundAndAllowed) {
   const BadOption& bad = GetParam();
-  const std::optional<std::string> problem = problem_with(changed(bad.change));
+  const std::optional<Problem> problem = problem_with(changed(bad.change));
   ASSERT_TRUE(problem.has_value());
-  const auto mentions = [&](const std::string& word) { return problem->find(word) != std::string::npos; };
-  EXPECT_TRUE(mentions(bad.option)) << *problem;
-  EXPECT_TRUE(mentions(bad.found)) << *problem;
+  const std::string& message = problem->message;
+  const auto mentions = [&](const std::string& word) { return message.find(word) != std::string::npos; };
+  EXPECT_EQ(problem->key, bad.option) << message;
+  EXPECT_TRUE(mentions(bad.found)) << message;
   for (const std::string& word : bad.allowed)
-    EXPECT_TRUE(mentions(word)) << "'" << word << "' in: " << *problem;
+    EXPECT_TRUE(mentions(word)) << "'" << word << "' in: " << message;
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryOption, ProblemWith, testing::ValuesIn(bad_options()), [](const auto& test) {
   return test.param.option + "_" + std::to_string(test.index);
 });
 
-TEST(MatcherOptions, DefaultsAreFine) { EXPECT_EQ(problem_with(MatcherOptions{}), std::nullopt); }
+TEST(MatcherOptions, Defaults_NoProblem) { EXPECT_EQ(problem_with(MatcherOptions{}), std::nullopt); }
 
-TEST(MatcherOptions, EndsOfEveryRangeAreFine) {
+TEST(MatcherOptions, EndsOfRanges_NoProblem) {
   const std::vector<std::function<void(MatcherOptions&)>> changes = {
       [](auto& o) { o.min_disparity = 1024; },
       [](auto& o) { o.disparities = 1; },
@@ -175,7 +180,7 @@ void expect_names_come_back(const std::vector<Enum>& values, Parse&& parse) {
   EXPECT_EQ(parse("magic"), std::nullopt);
 }
 
-TEST(MatcherOptions, NamesComeBackAsTheValuesTheyName) {
+TEST(MatcherOptions, Names_ParseBack) {
   expect_names_come_back<Method>({Method::kBlock, Method::kSemiglobal}, parse_method);
   expect_names_come_back<Grid>({Grid::kCoarse, Grid::kFine}, parse_grid);
   using enum Implementation;
@@ -188,13 +193,10 @@ TEST(MatcherOptions, NamesComeBackAsTheValuesTheyName) {
   expect_names_come_back<Cost>({kSad, kSsd, kMad}, parse_cost);
 }
 
-TEST(MatcherOptions, EveryPresetThatIsListedExistsAndIsFine) {
-  std::string list(kMatcherPresets);
+TEST(MatcherOptions, EveryPreset_NoProblem) {
   int presets = 0;
-  for (std::size_t begin = 0; begin < list.size(); ++presets) {
-    const std::size_t comma = list.find(", ", begin);
-    const std::string name = list.substr(begin, comma - begin);
-    begin = comma == std::string::npos ? list.size() : comma + 2;
+  for (const std::string_view name : kMatcherPresets) {
+    ++presets;
     const std::optional<MatcherOptions> options = matcher_preset(name);
     ASSERT_TRUE(options.has_value()) << name;
     EXPECT_EQ(problem_with(*options), std::nullopt) << name;
@@ -204,7 +206,7 @@ TEST(MatcherOptions, EveryPresetThatIsListedExistsAndIsFine) {
   EXPECT_EQ(matcher_preset(""), std::nullopt);
 }
 
-TEST(MatcherOptions, OnlyTheDensePresetFills) {
+TEST(MatcherOptions, DensePreset_AloneFillsHoles) {
   for (const char* name : {"thesis", "fast", "robust", "fine"}) {
     EXPECT_FALSE(matcher_preset(name)->hole_filling) << name;
   }
@@ -215,7 +217,7 @@ TEST(MatcherOptions, OnlyTheDensePresetFills) {
   EXPECT_EQ(dense, matcher_preset("robust"));
 }
 
-TEST(MatcherOptions, ThesisPresetIsTheThesisMatcher) {
+TEST(MatcherOptions, ThesisPreset_IsTheThesisMatcher) {
   const MatcherOptions thesis = matcher_preset("thesis").value();
   EXPECT_EQ(thesis.window, 11);
   EXPECT_EQ(thesis.disparities, 64);
@@ -229,9 +231,54 @@ TEST(MatcherOptions, ThesisPresetIsTheThesisMatcher) {
   EXPECT_EQ(thesis.speckle_size, 0);
 }
 
-TEST(MatcherOptions, UnitsFollowFromSubpixel) {
+TEST(MatcherOptions, Subpixel_SetsUnits) {
   EXPECT_EQ(changed([](auto& o) { o.subpixel = true; }).units_per_pixel(), 16);
   EXPECT_EQ(changed([](auto& o) { o.subpixel = false; }).units_per_pixel(), 1);
+}
+
+TEST(MatcherOptionTable, EveryRow_HasKeyAndSentenceAndReadsItsDefault) {
+  MatcherOptions options = matcher_preset("dense").value();
+  std::set<std::string_view> keys;
+  for (const MatcherOption& option : matcher_option_table()) {
+    EXPECT_TRUE(keys.insert(option.key).second) << option.key;
+    EXPECT_TRUE(option.description.ends_with('.')) << option.key;
+    EXPECT_FALSE(first_sentence(option).empty());
+    EXPECT_FALSE(first_sentence(option).ends_with('.'));
+    const OptionValue value = option.get(options);
+    EXPECT_TRUE(allows(option, value)) << option.key;
+    EXPECT_EQ(parse_value(option, value_text(option, value)), value) << option.key;
+    option.set(options, value);
+  }
+  EXPECT_EQ(options, matcher_preset("dense"));
+  EXPECT_EQ(keys.size(), 23U) << "as many as MatcherOptions has members";
+}
+
+TEST(MatcherOptionTable, EveryValueThatIsSet_IsReadBack) {
+  MatcherOptions options;
+  for (const MatcherOption& option : matcher_option_table()) {
+    const MatcherOptions before = options;
+    OptionValue other;
+    const OptionValue value = option.get(options);
+    if (const bool* flag = std::get_if<bool>(&value)) other = !*flag;
+    if (const int* number = std::get_if<int>(&value)) other = *number + 1;
+    for (const std::string_view name : option.names) {
+      if (name != std::get<std::string>(value)) other = std::string(name);
+    }
+    option.set(options, other);
+    EXPECT_EQ(option.get(options), other) << option.key;
+    EXPECT_NE(options, before) << option.key;
+  }
+}
+
+TEST(MatcherOptionTable, OptionsOfTheOtherMethod_DoNotBelongToIt) {
+  std::set<std::string_view> block, semiglobal;
+  for (const MatcherOption& option : matcher_option_table()) {
+    if (!belongs_to(option, Method::kSemiglobal)) block.insert(option.key);
+    if (!belongs_to(option, Method::kBlock)) semiglobal.insert(option.key);
+  }
+  EXPECT_EQ(block, (std::set<std::string_view>{"window", "texture_threshold", "cost", "cache"}));
+  EXPECT_EQ(semiglobal, (std::set<std::string_view>{"grid", "p1", "p2", "census_weight", "gradient_limit",
+                                                    "hole_filling"}));
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/config/calibration_file.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +78,7 @@ std::string place_of(const std::string& text, const std::string& word) {
   return "calibration.yaml:" + std::to_string(std::count(text.begin(), end, '\n') + 1) + ": ";
 }
 
-TEST_F(CalibrationFile, ReadsWhatWasWrittenToTheLastBit) {
+TEST_F(CalibrationFile, Written_ReadsBackToTheBit) {
   write_calibration(file_, sound());
   EXPECT_EQ(read_calibration(file_), sound());
   EXPECT_EQ(files_in_directory(), 1U);
@@ -98,7 +99,7 @@ TEST_F(CalibrationFile, ReadsWhatWasWrittenToTheLastBit) {
   }
 }
 
-TEST_F(CalibrationFile, KeepsEveryLensModel) {
+TEST_F(CalibrationFile, EveryLensModel_ReadsBack) {
   Calibration calibration = sound();
   CameraModel& left = calibration.left.camera;
   for (double* coefficient : {&left.s1, &left.s2, &left.s3, &left.s4, &left.tau_x, &left.tau_y}) {
@@ -118,10 +119,10 @@ TEST_F(CalibrationFile, KeepsEveryLensModel) {
   const std::string five = "model: fisheye\n  fx: 300";
   EXPECT_NE(calibration_text(calibration).find(five), std::string::npos);
   EXPECT_TRUE(complaint_about(replaced(calibration_text(calibration), "distortion: [", "distortion: [1, "))
-                  .ends_with("left.distortion: found 5 values, allowed is a list of 4 numbers"));
+                  .ends_with("left.distortion: found 5 values, allowed a list of numbers (4)"));
 }
 
-TEST_F(CalibrationFile, AnEditedFileHasAnotherId) {
+TEST_F(CalibrationFile, EditedFile_HasAnotherId) {
   const std::string text = calibration_text(sound());
   EXPECT_EQ(complaint_about(replaced(text, "fx: 555 ", "fx: 556 ")), "none");
   EXPECT_NE(read_calibration(file_).id, sound().id);
@@ -129,7 +130,7 @@ TEST_F(CalibrationFile, AnEditedFileHasAnotherId) {
   EXPECT_EQ(read_calibration(file_).id, sound().id);
 }
 
-TEST_F(CalibrationFile, EachMistakeIsNamedWithItsPlace) {
+TEST_F(CalibrationFile, Mistake_NamedWithLineAndKey) {
   const std::string good = calibration_text(sound());
   struct Case {
     std::string from, to, place, sentence;
@@ -137,19 +138,17 @@ TEST_F(CalibrationFile, EachMistakeIsNamedWithItsPlace) {
   const std::vector<Case> cases = {
       {"baseline_m: 0.0601", "baselin_m: 0.0601", "", "baseline_m: is missing"},
       {"image_width: 640", "image_width: 640.5", "image_width",
-       "image_width: found '640.5', allowed are whole numbers from 1 to 16384"},
-      {"image_width: 640", "image_width: 0", "image_width",
-       "image_width: found '0', allowed are whole numbers from 1 to 16384"},
+       "image_width: found 640.5, allowed 1…16384 (whole numbers)"},
+      {"image_width: 640", "image_width: 0", "image_width", "image_width: found 0, allowed 1…16384"},
       {"baseline_m: 0.0601", "baseline_m: 60.1cm", "baseline_m",
-       "baseline_m: found '60.1cm', allowed are numbers from 0.0001 to 100"},
+       "baseline_m: found '60.1cm', allowed 0.0001…100"},
       {"baseline_m: 0.0601", "baseline_m: -0.06", "baseline_m",
-       "baseline_m: found '-0.06', allowed are numbers from 0.0001 to 100"},
-      {"model: pinhole", "model: fishy", "  model",
-       "left.model: found 'fishy', allowed are 'pinhole' and 'fisheye'"},
-      {"fy: 548", "fy: nan", "  fy", "left.fy: found 'nan', allowed are numbers from 1 to 1e+06"},
+       "baseline_m: found -0.06, allowed 0.0001…100"},
+      {"model: pinhole", "model: fishy", "  model", "left.model: found 'fishy', allowed pinhole, fisheye"},
+      {"fy: 548", "fy: nan", "  fy", "left.fy: found 'nan', allowed 1…1000000"},
       {"-0.28, ", "", "  distortion",
-       "left.distortion: found 7 values, allowed is a list of 4, 5, 8, 12 or 14 numbers"},
-      {"-0.28, ", "much, ", "  distortion", "left.distortion: found 'much', allowed are finite numbers"},
+       "left.distortion: found 7 values, allowed a list of numbers (4, 5, 8, 12, 14)"},
+      {"-0.28, ", "much, ", "  distortion", "left.distortion: found 'much', allowed finite numbers"},
       {"projection:", "projektion:", "", "left.projection: is missing"},
       {"  rms_px: 0.31", "  rms_px: 0.31\n  rms: 1", "  rms: 1",
        "quality.rms: is not a known key; the nearest known key is 'rms_px'"},
@@ -166,7 +165,7 @@ TEST_F(CalibrationFile, EachMistakeIsNamedWithItsPlace) {
   }
 }
 
-TEST_F(CalibrationFile, NumbersThatDoNotFitTogetherAreNamed) {
+TEST_F(CalibrationFile, InconsistentNumbers_Named) {
   const std::string good = calibration_text(sound());
   EXPECT_EQ(complaint_about(replaced(good, "fy: 521.3", "fy: 520")),
             "calibration.yaml: the projections' fy differ (left 520, right 521.3), so the rows of the "
@@ -178,19 +177,19 @@ TEST_F(CalibrationFile, NumbersThatDoNotFitTogetherAreNamed) {
             "determinant +1");
 }
 
-TEST_F(CalibrationFile, WhatIsNoCalibrationAtAllIsSaid) {
-  EXPECT_EQ(complaint_of(directory_ / "none.yaml"), "none.yaml: there is no such file");
+TEST_F(CalibrationFile, NoCalibration_Refused) {
+  EXPECT_EQ(complaint_of(directory_ / "none.yaml"), "none.yaml: the file does not exist");
   EXPECT_NE(complaint_of(directory_), "none");
   const std::string broken = complaint_about("image_width: 640\nleft: [1, 2\nright: }\n");
   EXPECT_TRUE(broken.starts_with("calibration.yaml:3: not valid YAML: ")) << broken;
   for (const char* text : {"", "# only a comment\n", "just words\n", "- a\n- list\n"}) {
     const std::string complaint = complaint_about(text);
-    EXPECT_TRUE(complaint.starts_with("calibration.yaml:1: expected a map")) << complaint;
+    EXPECT_TRUE(complaint.starts_with("calibration.yaml:1: found ")) << complaint;
   }
 }
 
 // Whatever bytes the file has been cut or turned into, the answer is a calibration or a FileError.
-TEST_F(CalibrationFile, DamagedFilesAreRefusedNotCrashedOn) {
+TEST_F(CalibrationFile, DamagedFile_Refused) {
   const std::string good = calibration_text(sound());
   std::mt19937 random(3);
   int refused = 0;
@@ -204,7 +203,7 @@ TEST_F(CalibrationFile, DamagedFilesAreRefusedNotCrashedOn) {
   EXPECT_GT(refused, 280);
 }
 
-TEST_F(CalibrationFile, AFailedWriteLeavesTheOldFileAndNoOther) {
+TEST_F(CalibrationFile, FailedWrite_KeepsTheOldFile) {
   write_calibration(file_, sound());
   Calibration unsound = sound();
   unsound.baseline_m = -1;
@@ -221,7 +220,7 @@ TEST_F(CalibrationFile, AFailedWriteLeavesTheOldFileAndNoOther) {
   EXPECT_THROW(write_calibration(directory_ / "missing" / "calibration.yaml", sound()), FileError);
 }
 
-TEST_F(CalibrationFile, IsReadableByOthers) {
+TEST_F(CalibrationFile, NewFile_ReadableByOthers) {
   write_calibration(file_, sound());
   EXPECT_EQ(fs::status(file_).permissions(), fs::perms(0644));
 }

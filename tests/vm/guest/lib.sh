@@ -62,7 +62,7 @@ cameras:
     width: ${size%x*}
     height: ${size#*x}
     format: $3
-    ${4:-align: never}
+    ${4:-sync: none}
 matcher: { ${matcher:-preset: fast, disparities: 8, min_disparity: 8} }
 workers: 1
 lcm: { pacing: 0.2, rows_per_message: 48 }

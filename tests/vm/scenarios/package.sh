@@ -32,7 +32,7 @@ cat >/etc/stereod/stereod.yaml <<CONFIG
 cameras:
   source: v4l2
   fps: 10
-  v4l2: {left: "$(by_path 0)", right: "$(by_path 1)", width: 320, height: 240, format: mjpeg, sync: never}
+  v4l2: {left: "$(by_path 0)", right: "$(by_path 1)", width: 320, height: 240, format: mjpeg, sync: none}
 matcher: {preset: fast, disparities: 8, min_disparity: 8, window: 5, prefilter: none, median: 0}
 workers: 1
 lcm: {rows_per_message: 48, pacing: 0.2}

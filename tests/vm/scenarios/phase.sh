@@ -14,7 +14,7 @@ jitter=$(jitter_us)
 
 tell left phase 0
 tell right phase 16000
-size=320x240 start_stereod "serial:$left_serial" "serial:$right_serial" mjpeg 'align: start
+size=320x240 start_stereod "serial:$left_serial" "serial:$right_serial" mjpeg 'sync: start
     max_sync_skew_ms: 3
     sync_attempts: 12'
 need_streaming 60

@@ -27,7 +27,7 @@ write_config() {
 cameras:
   source: v4l2
   fps: 10
-  v4l2: {left: "$(by_path 0)", right: "$(by_path 1)", width: 320, height: 240, format: mjpeg, sync: never ${4:-}}
+  v4l2: {left: "$(by_path 0)", right: "$(by_path 1)", width: 320, height: 240, format: mjpeg, sync: none ${4:-}}
 matcher: {preset: fast, disparities: $3, min_disparity: 8, window: 5, prefilter: none, median: 0}
 workers: 1
 lcm: {prefix: $2, rows_per_message: 48, pacing: 0.2}

@@ -6,7 +6,7 @@ modprobe vivid n_devs=2 node_types=1,1 num_inputs=1,1 input_types=0,0 multiplana
 udevadm settle
 left=/dev/video20 right=/dev/video21
 fps=10 size=320x180
-start() { start_stereod $left $right "$1" "align: never
+start() { start_stereod $left $right "$1" "sync: none
     exposure: auto
     controls: { brightness: 90, gain: 60 }"; }
 

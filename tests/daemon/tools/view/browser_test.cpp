@@ -36,7 +36,7 @@ class BrowserTest : public testing::Test {
     if (!chromium_) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
     std::ofstream(config_)
         << "cameras: {source: synthetic, fps: 20, synthetic: {width: 320, height: 240}}\n"
-        << "scan: {enabled: true, ground: given, camera_height_m: 0.45, stop_distance_m: 0.8}\n"
+        << "scan: {enabled: true, ground: fixed, camera_height_m: 0.45, stop_distance_m: 0.8}\n"
         << "lcm: {url: \"" << kUrl << "\", prefix: WEB, left_image: jpeg}\n";
   }
 
