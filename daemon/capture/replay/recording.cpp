@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finding and reading the files of a recording.
 #include "daemon/capture/replay/recording.h"
 
 #include <algorithm>
@@ -20,8 +22,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMemoryLimit = std::size_t{1} << 30;
 
-/// A image's number as text, so that it may be of any length: how many digits without leading zeros, and
-/// those. So the longer number is the larger one.
+/// The number in a file name, of any length: the count of its digits without leading zeros, and the digits.
+/// Comparing them orders by value.
 using FrameNumber = std::pair<std::size_t, std::string>;
 
 using NumberedFiles = std::map<FrameNumber, fs::path>;
@@ -33,9 +35,10 @@ std::string lower_case(std::string text) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-bool is_picture(const fs::path& path) {
-  const std::string ending = lower_case(path.extension().string());
-  return ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".pgm" || ending == ".ppm";
+bool is_image(const fs::path& path) {
+  const std::string extension = lower_case(path.extension().string());
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".pgm" ||
+         extension == ".ppm";
 }
 
 /// Splits "left_007" into "left_" and 7.
@@ -54,7 +57,7 @@ void add_file(NumberedFiles& files, const FrameNumber& number, const fs::path& p
   }
 }
 
-/// The directory's entries, sorted, so that messages do not depend on the file system.
+/// Returns the directory's entries, sorted so that messages do not depend on the file system.
 std::vector<fs::path> entries_of(const fs::path& directory) {
   std::error_code error;
   if (!fs::exists(directory, error)) {
@@ -71,12 +74,12 @@ std::vector<fs::path> entries_of(const fs::path& directory) {
   return entries;
 }
 
-/// The images of a directory that holds one side only.
+/// Returns the numbered images of a directory that contains one side.
 NumberedFiles numbered_files(const fs::path& directory) {
   NumberedFiles files;
   for (const fs::path& path : entries_of(directory)) {
     const std::string stem = path.stem().string();
-    if (!is_picture(path) || stem.empty() || !is_digit(stem.back())) continue;
+    if (!is_image(path) || stem.empty() || !is_digit(stem.back())) continue;
     add_file(files, split_number(stem).second, path);
   }
   return files;
@@ -87,7 +90,7 @@ bool begins_with_side(std::string prefix, char side) {
   return prefix == (side == 'l' ? "left" : "right") || prefix == std::string(1, side);
 }
 
-/// Every left file with its right one.
+/// Joins left and right files with the same number.
 std::vector<PairFiles> join(const NumberedFiles& left, const NumberedFiles& right) {
   const auto require_partner = [](const fs::path& path, const FrameNumber& number,
                                   const NumberedFiles& others, const char* side) {
@@ -125,7 +128,7 @@ std::vector<PairFiles> find_pairs(const fs::path& directory) {
     NumberedFiles left;
     NumberedFiles right;
     for (const fs::path& path : entries) {
-      if (!is_picture(path)) continue;
+      if (!is_image(path)) continue;
       const auto [prefix, number] = split_number(lower_case(path.stem().string()));
       if (begins_with_side(prefix, 'l')) add_file(left, number, path);
       if (begins_with_side(prefix, 'r')) add_file(right, number, path);
@@ -143,12 +146,12 @@ std::vector<PairFiles> find_pairs(const fs::path& directory) {
 
 namespace {
 
-std::string words_for(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
+std::string to_text(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
 
 void require_size(const fs::path& path, Size found, Size wanted, const fs::path& first) {
   if (found == wanted) return;
-  throw FileError(path.string() + ": has " + words_for(found) + " pixels, but " + first.filename().string() +
-                  " has " + words_for(wanted) + "; all images of a recording must have one size");
+  throw FileError(path.string() + ": has " + to_text(found) + " pixels, but " + first.filename().string() +
+                  " has " + to_text(wanted) + "; all images of a recording must have one size");
 }
 
 std::vector<RecordedPair> load(const std::vector<PairFiles>& files, const fs::path& name) {
@@ -161,7 +164,7 @@ std::vector<RecordedPair> load(const std::vector<PairFiles>& files, const fs::pa
     const std::size_t bytes =
         2 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     if (files.size() > kMemoryLimit / bytes) {
-      throw FileError(name.string() + ": " + std::to_string(files.size()) + " pairs of " + words_for(size) +
+      throw FileError(name.string() + ": " + std::to_string(files.size()) + " pairs of " + to_text(size) +
                       " pixels do not fit into 1 GiB, the most that is replayed; take out some");
     }
     pairs.push_back(std::move(pair));
