@@ -52,8 +52,8 @@ std::pair<std::string, FrameNumber> split_number(const std::string& stem) {
 void add_file(NumberedFiles& files, const FrameNumber& number, const fs::path& path) {
   const auto [place, added] = files.emplace(number, path);
   if (!added) {
-    throw FileError(path.string() + ": has the same number as " + place->second.filename().string() +
-                    "; each pair needs its own");
+    throw FileError(path.string() + ": same number as " + place->second.filename().string() +
+                    "; each pair needs its own number");
   }
 }
 
@@ -61,10 +61,10 @@ void add_file(NumberedFiles& files, const FrameNumber& number, const fs::path& p
 std::vector<fs::path> entries_of(const fs::path& directory) {
   std::error_code error;
   if (!fs::exists(directory, error)) {
-    throw FileError(directory.string() + ": the directory does not exist");
+    throw FileError(directory.string() + ": no such directory");
   }
   if (!fs::is_directory(directory, error)) {
-    throw FileError(directory.string() + ": is no directory; a directory of numbered pairs is needed");
+    throw FileError(directory.string() + ": not a directory; a directory of numbered pairs is needed");
   }
   std::vector<fs::path> entries;
   fs::directory_iterator next(directory, error);
@@ -95,7 +95,7 @@ std::vector<PairFiles> join(const NumberedFiles& left, const NumberedFiles& righ
   const auto require_partner = [](const fs::path& path, const FrameNumber& number,
                                   const NumberedFiles& others, const char* side) {
     if (others.contains(number)) return;
-    throw FileError(path.string() + ": has no partner; there is no " + side + " image with its number");
+    throw FileError(path.string() + ": no " + side + " image with the same number");
   };
   std::vector<PairFiles> pairs;
   for (const auto& [number, path] : left) {
@@ -136,10 +136,9 @@ std::vector<PairFiles> find_pairs(const fs::path& directory) {
     pairs = join(left, right);
   }
   if (pairs.empty()) {
-    throw FileError(
-        directory.string() +
-        ": there is no stereo pair in it; files like left_00.png and right_00.png, or directories left "
-        "and right with numbered images, are needed");
+    throw FileError(directory.string() +
+                    ": no stereo pair found; files like left_00.png and right_00.png, or directories left "
+                    "and right with numbered images, are needed");
   }
   return pairs;
 }
@@ -165,7 +164,7 @@ std::vector<RecordedPair> load(const std::vector<PairFiles>& files, const fs::pa
         2 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     if (files.size() > kMemoryLimit / bytes) {
       throw FileError(name.string() + ": " + std::to_string(files.size()) + " pairs of " + to_text(size) +
-                      " pixels do not fit into 1 GiB, the most that is replayed; take out some");
+                      " pixels exceed the limit of 1 GiB; remove some");
     }
     pairs.push_back(std::move(pair));
   }

@@ -124,7 +124,7 @@ bool V4l2PairState::fall_back(Side side, int level) {
   const std::lock_guard lock(mutex_);
   if (config_.v4l2.format != "auto") return false;
   if (fallback_level_ > level) return true;  // the other camera has requested it already
-  // If only the other camera has a further fallback, that one leaves more of the bus to this camera.
+  // If only the other camera has a further fallback, it leaves more of the bus to this camera.
   const int levels = std::max(camera(side).info.fallback_levels, camera(opposite(side)).info.fallback_levels);
   if (fallback_level_ + 1 >= levels) return false;
   ++fallback_level_;

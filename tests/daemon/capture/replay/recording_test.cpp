@@ -99,32 +99,29 @@ TEST_F(RecordingTest, OneLetterDirectories_Found) {
 TEST_F(RecordingTest, PartnerMissing_Named) {
   add_pairs(2);
   add("left_5.pgm", 5);
-  EXPECT_EQ(refusal(),
-            in_directory("left_5.pgm") + ": has no partner; there is no right image with its number");
+  EXPECT_EQ(refusal(), in_directory("left_5.pgm") + ": no right image with the same number");
   std::filesystem::remove(directory_ / "left_5.pgm");
   std::filesystem::remove(directory_ / "left_1.pgm");
-  EXPECT_EQ(refusal(),
-            in_directory("right_1.pgm") + ": has no partner; there is no left image with its number");
+  EXPECT_EQ(refusal(), in_directory("right_1.pgm") + ": no left image with the same number");
 }
 
 TEST_F(RecordingTest, NumberTwice_Named) {
   add_pairs(2);
   add("left_01.pgm", 5);
   EXPECT_EQ(refusal(),
-            in_directory("left_1.pgm") + ": has the same number as left_01.pgm; each pair needs its own");
+            in_directory("left_1.pgm") + ": same number as left_01.pgm; each pair needs its own number");
 }
 
 TEST_F(RecordingTest, NoPairs_RemedyNamed) {
   add("image.pgm", 1);
-  EXPECT_EQ(
-      refusal(),
-      directory_.path().string() +
-          ": there is no stereo pair in it; files like left_00.png and right_00.png, or directories left "
-          "and right with numbered images, are needed");
+  EXPECT_EQ(refusal(),
+            directory_.path().string() +
+                ": no stereo pair found; files like left_00.png and right_00.png, or directories left "
+                "and right with numbered images, are needed");
   EXPECT_EQ(file_error_of([&] { Recording recording(directory_ / "none"); }),
-            in_directory("none") + ": the directory does not exist");
+            in_directory("none") + ": no such directory");
   EXPECT_EQ(file_error_of([&] { Recording recording(directory_ / "image.pgm"); }),
-            in_directory("image.pgm") + ": is no directory; a directory of numbered pairs is needed");
+            in_directory("image.pgm") + ": not a directory; a directory of numbered pairs is needed");
 }
 
 TEST_F(RecordingTest, OtherSize_Named) {
@@ -160,10 +157,8 @@ TEST_F(RecordingTest, OverOneGiB_Refused) {
     std::filesystem::create_hard_link(directory_ / "large.png",
                                       directory_ / ("right" + std::to_string(i) + ".png"));
   }
-  EXPECT_EQ(refusal(),
-            directory_.path().string() +
-                ": 33 pairs of 4096×4096 pixels do not fit into 1 GiB, the most that is replayed; take out "
-                "some");
+  EXPECT_EQ(refusal(), directory_.path().string() +
+                           ": 33 pairs of 4096×4096 pixels exceed the limit of 1 GiB; remove some");
 }
 
 }  // namespace

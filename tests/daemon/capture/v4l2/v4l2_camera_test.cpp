@@ -111,7 +111,7 @@ TEST_F(V4l2CameraTest, AbsentCamera_NoBusyWait) {
   const int before = bench_.video.waits();
   EXPECT_FALSE(bench_.frame(*bench_.left, 60'000));
   EXPECT_LT(bench_.video.waits() - before, 3000)
-      << "waits in a minute, with a time-out of 100 ms in each call";
+      << "waits in a minute, with a timeout of 100 ms in each call";
 }
 
 TEST_F(V4l2CameraTest, Replug_StreamsAgain) {
