@@ -100,7 +100,7 @@ int main_with(int argc, char** argv) {
   set_up_log("info");
   try {
     if (list_only) {
-      std::fputs(list_cameras(*make_kernel_video_system()).c_str(), stdout);
+      std::fputs(v4l2::list_cameras(*v4l2::make_kernel_video_system()).c_str(), stdout);
       return 0;
     }
     const Config config = read_config(config_file);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/capture/capture_thread.h"
 
 #include <chrono>
@@ -6,8 +7,8 @@
 namespace stereod {
 namespace {
 
-// From a grid of 32 × 24 pixels.
-double brightness_of(const LumaView& luma) noexcept {
+// Samples a grid of 32 × 24 pixels.
+double mean_brightness_of(const LumaView& luma) noexcept {
   constexpr int kColumns = 32, kRows = 24;
   int sum = 0;
   for (int j = 0; j < kRows; ++j) {
@@ -32,7 +33,7 @@ void CaptureThread::stop() noexcept {
   if (thread_.joinable()) thread_.join();
 }
 
-void CaptureThread::note_interruption() noexcept {
+void CaptureThread::withdraw_waiting_frame() noexcept {
   if (!std::exchange(interrupted_, true)) pair_queue_.camera_interrupted(side_);
 }
 
@@ -43,11 +44,11 @@ void CaptureThread::run() noexcept {
     if (!lease) {
       const SourceState state = source_.state();
       if (state == SourceState::kFinished) break;
-      if (state == SourceState::kWaiting) note_interruption();
+      if (state != SourceState::kStreaming) withdraw_waiting_frame();
       continue;
     }
     if (std::exchange(interrupted_, false)) pair_queue_.set_frame_time(side_, source_.frame_time_ns());
-    mean_brightness_ = brightness_of(lease.frame().luma);
+    mean_brightness_ = mean_brightness_of(lease.frame().luma);
     ++frames_;
     pair_queue_.add(side_, std::move(lease));
   }

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Deadlines and turns of recorded or rendered cameras.
 #include "daemon/capture/frame_clock.h"
 
 #include <algorithm>
@@ -11,7 +13,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Longer waits are cut to this, so that no sum of times overflows.
+// Longer waits are shortened to this, so that no sum of times overflows.
 constexpr std::chrono::milliseconds kMaxWait = std::chrono::hours(24);
 
 std::int64_t to_ns(std::chrono::steady_clock::time_point time) {
@@ -23,16 +25,16 @@ std::int64_t to_ns(std::chrono::steady_clock::time_point time) {
 FrameClock::FrameClock(double fps, const std::vector<nanoseconds>& offsets) {
   if (!(fps >= 0 && fps <= 1000)) {
     std::ostringstream message;
-    message << "frames come at 0 to 1000 frames a second, not " << fps;
+    message << "frame rate " << fps << " Hz (allowed 0…1000)";
     throw std::invalid_argument(message.str());
   }
-  // Less than one frame a day is not told from it, again so that no sum of times overflows.
+  // A rate below one frame a day becomes one a day, again so that no sum of times overflows.
   if (fps > 0) period_ = nanoseconds(std::llround(1e9 / std::max(fps, 1.0 / 86400)));
   for (const nanoseconds offset : offsets) {
     Camera camera;
     camera.offset = offset;
     cameras_.push_back(camera);
-    largest_offset_ = std::max(largest_offset_, offset);
+    max_offset_ = std::max(max_offset_, offset);
   }
 }
 
@@ -49,7 +51,7 @@ std::optional<FrameTick> FrameClock::wait_paced(Camera& camera, Time deadline,
                                                 std::unique_lock<std::mutex>& lock) noexcept {
   const Time origin = *origin_ + camera.offset;
   const auto newest_due = [&] {
-    const std::int64_t periods = (std::chrono::steady_clock::now() - origin) / period_;  // rounds towards 0
+    const std::int64_t periods = (std::chrono::steady_clock::now() - origin) / period_;  // rounds toward 0
     return std::max(camera.next, periods);
   };
   const auto captured = [&](std::int64_t number) { return origin + number * period_; };
@@ -57,7 +59,7 @@ std::optional<FrameTick> FrameClock::wait_paced(Camera& camera, Time deadline,
   const Time wanted = captured(newest_due());
   changed_.wait_until(lock, std::min(wanted, deadline), [&] { return camera.stopped; });
   if (camera.stopped || std::chrono::steady_clock::now() < wanted) return std::nullopt;
-  const std::int64_t number = newest_due();  // the wake-up itself may have been late
+  const std::int64_t number = newest_due();  // the thread may have woken up late
   camera.next = number + 1;
   ++camera.on_loan;
   return FrameTick{number, to_ns(captured(number))};
@@ -70,8 +72,8 @@ std::optional<FrameTick> FrameClock::wait_free(Camera& camera, Time deadline,
   const std::int64_t number = camera.next++;
   if (number > newest_) {
     newest_ = number;
-    // No camera's capture time lies in the future.
-    free_captures_[number % 2] = std::chrono::steady_clock::now() - largest_offset_;
+    // So that no camera's capture time lies in the future.
+    free_captures_[number % 2] = std::chrono::steady_clock::now() - max_offset_;
   }
   ++camera.on_loan;
   changed_.notify_all();

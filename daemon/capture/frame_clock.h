@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // When the frames of a recording or of a rendered scene are due.
 #pragma once
 
@@ -12,39 +13,40 @@ namespace stereod {
 
 /// A frame that may be delivered now.
 struct FrameTick {
-  std::int64_t number = 0;  ///< counts from 0; a gap means the consumer came too late for the frames between
-  std::int64_t captured_ns = 0;  ///< CLOCK_MONOTONIC; the same for every camera, plus the camera's own offset
+  std::int64_t number = 0;  ///< counts from 0; a gap stands for frames that the consumer came too late for
+  std::int64_t captured_ns = 0;  ///< CLOCK_MONOTONIC; the same for all cameras, plus the camera's offset
 };
 
-/// The one time that the cameras of a rig which are not real share, so that frame n of each carries the same
-/// number and the same capture time. It has two ways to go:
-///   fps > 0: frame n is due at origin + n / fps, an absolute deadline, so nothing drifts. The origin is the
-///     first call of wait(), by any camera. Whoever asks late gets the newest frame that is due, never an old
-///     one.
-///   fps = 0: as fast as frames come back. A camera gets its next frame when its last one was given back and
-///     every other camera has taken its own last one: one frame a camera is on loan, none is ever skipped,
-///     and no camera runs ahead by more than one. Frame n is captured when the first camera takes it.
+/// The clock that recorded or rendered cameras share: frame n of each camera has the same number and the same
+/// capture time. Two modes:
 ///
-/// A source calls wait() with its camera's number in next(), lends what frame `number` is, and calls
-/// give_back() when the lease ends. After construction nothing here allocates or throws.
+///   fps > 0  Frame n is due at origin + n / fps. The deadlines are absolute, so nothing drifts. The origin
+///            is the first call of wait() by any camera. A late consumer gets the newest frame that is due,
+///            never an older one.
+///   fps = 0  As fast as the consumer gives frames back. A camera gets its next frame when its previous one
+///            was given back and every other camera has taken the previous one: one frame of each camera is
+///            on loan, no frame is skipped, and no camera is ahead by more than one frame. The capture time
+///            of frame n is when the first camera takes it.
+///
+/// A source calls wait() in next(), lends frame `number`, and calls give_back() when the lease ends. After
+/// construction nothing allocates or throws.
 class FrameClock {
  public:
-  /// `fps` 0…1000 frames a second. `offsets`: one entry for each camera, how much later than the others it
-  /// exposes and delivers its frames; its place in the list is the camera's number. Throws
-  /// std::invalid_argument.
+  /// @p fps [Hz, 0…1000]. @p offsets: for each camera, how much later it exposes and delivers its frames; the
+  /// index is the camera's number.
+  /// @throws std::invalid_argument if @p fps is out of range.
   FrameClock(double fps, const std::vector<std::chrono::nanoseconds>& offsets);
   FrameClock(const FrameClock&) = delete;
   FrameClock& operator=(const FrameClock&) = delete;
 
-  /// Waits until the next frame of `camera` is due, but no longer than `timeout`; nothing if the time ran out
-  /// or the camera was stopped. One thread a camera calls this.
+  /// Blocks until the next frame of @p camera is due, at most @p timeout. Returns nothing after the timeout
+  /// or once the camera was stopped. Called by one thread for each camera.
   std::optional<FrameTick> wait(int camera, std::chrono::milliseconds timeout) noexcept;
 
-  /// The frame that `camera` had on loan is free again. Any thread.
+  /// Records that a frame of @p camera is no longer on loan. Any thread.
   void give_back(int camera) noexcept;
 
-  /// Ends a wait() of `camera` at once, and every one from now on; the other cameras wait for it no longer.
-  /// Any thread.
+  /// Makes every wait() of @p camera return at once; the other cameras no longer wait for it. Any thread.
   void stop(int camera) noexcept;
 
  private:
@@ -52,7 +54,7 @@ class FrameClock {
 
   struct Camera {
     std::chrono::nanoseconds offset{};
-    std::int64_t next = 0;  // the lowest frame number it may still get
+    std::int64_t next = 0;  // the next frame number it may get
     int on_loan = 0;
     bool stopped = false;
   };
@@ -66,10 +68,10 @@ class FrameClock {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Camera> cameras_;
-  std::chrono::nanoseconds period_{};          // 0: as fast as frames come back
-  std::chrono::nanoseconds largest_offset_{};  // ≥ 0
+  std::chrono::nanoseconds period_{};      // 0 = as fast as frames come back
+  std::chrono::nanoseconds max_offset_{};  // ≥ 0
   std::optional<Time> origin_;
-  Time free_captures_[2];  // fps = 0: when frames number `newest_` and `newest_` - 1 were captured, by parity
+  Time free_captures_[2];  // fps = 0: capture times of frames newest_ and newest_ − 1, indexed by parity
   std::int64_t newest_ = -1;
 };
 

@@ -1,35 +1,27 @@
-// The seam between cameras and the pipeline: whoever can lend frames is a frame source.
+// SPDX-License-Identifier: BSD-3-Clause
+// The seam between cameras and the pipeline: a FrameSource lends the frames of one camera.
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
-#include "core/base/image.h"
+#include "core/base/luma_view.h"
 
 namespace stereod {
-
-/// The brightness of a image, read where it lies: `pixel_stride` is 1 for gray and planar formats, 2 for
-/// the Y of YUYV and UYVY.
-struct LumaView {
-  const std::uint8_t* data = nullptr;
-  Size size;
-  std::ptrdiff_t row_stride = 0;    ///< bytes
-  std::ptrdiff_t pixel_stride = 1;  ///< bytes
-};
 
 /// One frame of one camera.
 struct Frame {
   LumaView luma;
-  std::int64_t captured_ns = 0;  ///< CLOCK_MONOTONIC at the start of exposure
-  std::uint32_t sequence = 0;    ///< the camera's own count; a gap is frames that were lost or dropped
-  std::int64_t utime = 0;  ///< µs since the Unix epoch, if the source knows better than captured_ns; else 0
+  std::int64_t captured_ns = 0;  ///< start of exposure, CLOCK_MONOTONIC
+  std::uint32_t sequence =
+      0;                   ///< the camera's own counter; a gap stands for frames that were lost or dropped
+  std::int64_t utime = 0;  ///< exposure [µs since the Unix epoch] if the source knows it (a log), else 0
 };
 
-/// Who takes a buffer back when the last user of a frame is done.
+/// Takes a buffer back when the last user of a frame is done.
 class BufferOwner {
  public:
   virtual void give_back(int buffer) noexcept = 0;
@@ -38,8 +30,8 @@ class BufferOwner {
   ~BufferOwner() = default;
 };
 
-/// A frame on loan: its memory is valid until the lease is destroyed, which gives the buffer back. Leases end
-/// before their source does.
+/// A frame on loan. Its memory is valid until the lease is destroyed, which gives the buffer back to its
+/// owner. A lease must end before its source is destroyed.
 class FrameLease {
  public:
   FrameLease() = default;
@@ -58,6 +50,7 @@ class FrameLease {
   }
   ~FrameLease() { end(); }
 
+  /// Returns true while a frame is on loan.
   explicit operator bool() const { return owner_ != nullptr; }
   const Frame& frame() const { return frame_; }
   void end() noexcept {
@@ -70,50 +63,61 @@ class FrameLease {
   int buffer_ = 0;
 };
 
-/// What a camera is doing, for the status message.
+/// What a source is doing. Rendered and recorded sources go waiting → streaming → finished; real cameras use
+/// the other states (state machine: v4l2/v4l2_camera.h).
 enum class SourceState {
-  kWaiting,    ///< no frames yet, or none any more; it keeps trying
-  kStreaming,  ///< frames come
-  kFinished,   ///< a recording played to its end: no frame will ever come again
+  kWaiting,    ///< has not delivered a frame yet
+  kAbsent,     ///< the camera is not plugged in
+  kOpening,    ///< the camera is being set up and has not delivered a frame yet
+  kStreaming,  ///< delivers frames
+  kStalled,    ///< the camera is set up but delivers no frames; its stream is restarted until it does
+  kLost,       ///< the camera streamed, then its driver failed
+  kFinished,   ///< the recording has been played to its end: there are no further frames
 };
 
-/// How a source is, for people and for the status message.
+/// Returns the word of the status message: waiting, absent, opening, streaming, stalled, lost, finished.
+std::string_view name_of(SourceState state);
+
+/// The state and the counters of a source, for the status message. Counters start at 0 and never decrease.
 struct SourceReport {
-  std::string state;       ///< waiting, streaming or finished; of a real camera: see CameraState
-  std::string reason;      ///< why it does not stream; empty when it does
-  std::string device;      ///< the device it is now; empty if none
-  std::string format;      ///< what it gives: "MJPG 640×480 at 30/s"
-  std::string note;        ///< what is worth knowing all the same, such as a control that did not take
-  std::string last_fault;  ///< the last reason it did not stream for
-  std::int64_t last_fault_ns = 0;   ///< when, CLOCK_MONOTONIC; 0: never
+  SourceState state = SourceState::kWaiting;
+  std::string reason;  ///< why the source does not stream; empty while it does
+  std::string device;  ///< the device in use; empty if there is none
+  std::string format;  ///< "MJPG 640×480 at 30 Hz"; empty if there is none
+  std::string note;    ///< a problem that does not stop the stream, such as a control that could not be set
+  std::string last_fault;           ///< why it last stopped streaming
+  std::int64_t last_fault_ns = 0;   ///< when, CLOCK_MONOTONIC; 0 = never
   std::int64_t reconnects = 0;      ///< times it streamed again
-  std::int64_t sequence_gaps = 0;   ///< frames that the camera counted and that never came here
-  std::int64_t decode_errors = 0;   ///< frames dropped: JPEGs that could not be decoded
+  std::int64_t sequence_gaps = 0;   ///< frames that the camera counted and the driver never delivered
+  std::int64_t decode_errors = 0;   ///< frames dropped: JPEG could not be decoded
   std::int64_t incomplete = 0;      ///< frames dropped: empty, too short, or marked as damaged by the driver
-  std::int64_t bad_timestamps = 0;  ///< frames dropped: stamped in a time that cannot be
-  std::int64_t superseded = 0;      ///< frames dropped: a newer one was there already
+  std::int64_t bad_timestamps = 0;  ///< frames dropped: timestamp far from now, or before the previous one
+  std::int64_t superseded = 0;      ///< frames dropped: a newer frame was already there
 };
 
-/// One camera: real, recorded or rendered. next() is called by one thread, the camera's own; give_back() by
-/// any; stop() by any, once, and makes next() return at once from then on.
+/// One camera: real, recorded or rendered.
+///
+/// Threads: next() and frame_time_ns() belong to one thread, the camera's own. state(), report() and the end
+/// of a lease may come from any thread. stop() may come from any thread, once; it makes every next() return
+/// at once.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// The size of every frame it lends.
+  /// Returns the size of every frame of this source.
   virtual Size frame_size() const = 0;
 
-  /// Waits for the next frame. An empty lease means: none within the time-out, stopped, or finished; ask
-  /// state(). Allocates nothing and throws nothing.
+  /// Blocks until the next frame is there, at most @p timeout. Returns an empty lease if no frame came in
+  /// time, the source was stopped or it has finished (see state()). Neither allocates nor throws.
   virtual FrameLease next(std::chrono::milliseconds timeout) noexcept = 0;
 
   virtual SourceState state() const noexcept = 0;
   virtual void stop() noexcept = 0;
 
-  /// Any thread; not on the per-frame path.
+  /// Allocates; not for the per-frame path.
   virtual SourceReport report() const;
 
-  /// The time from one frame to the next as the camera has it now; 0: as configured. The camera's thread.
+  /// Returns the present frame period [ns], 0 if it is the configured one.
   virtual std::int64_t frame_time_ns() const noexcept { return 0; }
 };
 

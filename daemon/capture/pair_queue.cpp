@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/capture/pair_queue.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 namespace stereod {
 namespace {
 
-int number_of(Side side) noexcept { return side == Side::kLeft ? 0 : 1; }
+int index_of(Side side) noexcept { return side == Side::kLeft ? 0 : 1; }
 
 }  // namespace
 
@@ -15,17 +16,17 @@ void PairQueue::add(Side side, FrameLease frame) noexcept {
   const LumaView luma = frame.frame().luma;
   const std::lock_guard lock(mutex_);
   if (closed_) return;
-  layout_[number_of(side)] = SourceLayout{luma.size, luma.row_stride, luma.pixel_stride};
+  layout_[index_of(side)] = SourceLayout{luma.size, luma.row_stride, luma.pixel_stride};
   pairing_.add(side, std::move(frame), captured_ns);
   if (pairing_.has_pair()) changed_.notify_one();
 }
 
 void PairQueue::set_frame_time(Side side, std::int64_t frame_ns) noexcept {
   const std::lock_guard lock(mutex_);
-  frame_ns_[number_of(side)] = frame_ns;
-  // The frames of the faster camera are all near one of the slower one.
-  const std::int64_t slower_ns = std::max(frame_ns_[0], frame_ns_[1]);
-  if (half_frames_ && slower_ns > 0) pairing_.set_tolerance_ns(slower_ns / 2);
+  frame_ns_[index_of(side)] = frame_ns;
+  // Every frame of the slower camera has a frame of the faster one within half of its own period.
+  const std::int64_t longer_ns = std::max(frame_ns_[0], frame_ns_[1]);
+  if (half_frame_ && longer_ns > 0) pairing_.set_tolerance_ns(longer_ns / 2);
 }
 
 void PairQueue::camera_interrupted(Side side) noexcept {
@@ -67,7 +68,7 @@ bool PairQueue::consumer_waits() const noexcept {
 
 std::optional<SourceLayout> PairQueue::layout(Side side) const noexcept {
   const std::lock_guard lock(mutex_);
-  return layout_[number_of(side)];
+  return layout_[index_of(side)];
 }
 
 void PairQueue::clear() noexcept {

@@ -1,8 +1,10 @@
-// Where the capture threads' frames meet.
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the frames of the two capture threads meet.
 #pragma once
 
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 
@@ -14,44 +16,63 @@ namespace stereod {
 
 using LeasedPair = FramePair<FrameLease>;
 
-/// The pairing policy behind a lock: capture threads bring frames, one thread takes pairs. Nothing waits here
-/// but the taker.
+/// The pairing policy (core/sync/pairing.h) behind a lock.
+///
+/// Threads: two producers, the capture threads, call add() and never block for longer than the lock is held.
+/// One consumer at a time, the matching thread, blocks in wait_pair().
+///
+/// Ownership: the queue holds at most one waiting frame of each camera and one complete pair. A frame that is
+/// dropped goes back to its source at once, so nothing queues up and latency never grows. Every lease must
+/// end before its source is destroyed: call clear() when the consumer is gone.
+///
+/// Tolerance: two frames are a pair if their capture times differ by at most the tolerance. It is either
+/// fixed (`cameras.max_skew_ms`), or half a frame period (`max_skew_ms: 0`). In the second case the queue
+/// starts with half of the configured period and follows the cameras: a camera that falls back to a lower
+/// rate reports its period by set_frame_time(), and the tolerance becomes half of the longer one of both
+/// periods.
 class PairQueue {
  public:
-  /// `tolerance_ns`: of the pairing. `half_frames`: it is half a frame, and changes when a camera's rate
-  /// does.
-  explicit PairQueue(std::int64_t tolerance_ns, bool half_frames = false)
-      : pairing_(tolerance_ns), half_frames_(half_frames) {}
+  /// @p tolerance_ns [ns, ≥ 0]. @p half_frame: the tolerance is half a frame period and follows
+  /// set_frame_time().
+  explicit PairQueue(std::int64_t tolerance_ns, bool half_frame = false)
+      : pairing_(tolerance_ns), half_frame_(half_frame) {}
 
-  /// The time from one frame of a camera to its next; 0: not known.
-  void set_frame_time(Side side, std::int64_t frame_ns) noexcept;
+  // For producers.
 
-  /// A camera has stopped streaming: its frame that waits for a partner is given back.
-  void camera_interrupted(Side side) noexcept;
-
-  /// Takes a frame of one camera. Frames it drops are given back at once.
+  /// Takes a frame of one camera. Frames that the policy drops are given back at once.
   void add(Side side, FrameLease frame) noexcept;
 
-  /// One camera will bring no more frames; after both have said so, the desk is closed.
+  /// Sets the frame period of one camera [ns]; 0 = unknown, which leaves the tolerance as it is.
+  void set_frame_time(Side side, std::int64_t frame_ns) noexcept;
+
+  /// Gives the camera's waiting frame back, because the camera has stopped streaming.
+  void camera_interrupted(Side side) noexcept;
+
+  /// Tells that one camera delivers no further frames. Closes the queue when both have said so.
   void camera_finished() noexcept;
 
-  /// No frame is taken any more.
-  void close() noexcept;
+  // For the consumer.
 
-  /// The newest pair; waits for one. Nothing once the desk is closed and the last pair taken, or once the
-  /// taker is called off: after `cancelled` was set and wake_consumer() called. A pair that lies here then
-  /// stays for the next taker.
+  /// Blocks until there is a pair and returns the newest one. Returns nothing if the queue is closed and
+  /// empty, or if @p cancelled is true; after setting it, call wake_consumer(). A pair that is in the queue
+  /// when the consumer is cancelled stays for the next consumer.
   std::optional<LeasedPair> wait_pair(const std::atomic<bool>& cancelled) noexcept;
-  void wake_consumer() noexcept;
 
-  /// Somebody waits for a pair and there is none.
+  /// Returns true while a consumer is blocked and there is no pair.
   bool consumer_waits() const noexcept;
 
-  /// How the latest frame of a camera lay in memory; nothing before the first.
-  std::optional<SourceLayout> layout(Side side) const noexcept;
+  // For the owner.
 
-  /// Gives back every frame that still lies here.
+  void wake_consumer() noexcept;
+
+  /// Refuses all further frames and ends wait_pair().
+  void close() noexcept;
+
+  /// Gives every frame in the queue back.
   void clear() noexcept;
+
+  /// Returns how the latest frame of a camera lay in memory; nothing before its first frame.
+  std::optional<SourceLayout> layout(Side side) const noexcept;
 
   PairingCounts counts() const noexcept;
 
@@ -63,7 +84,7 @@ class PairQueue {
   bool closed_ = false;
   bool consumer_waits_ = false;
   std::optional<SourceLayout> layout_[2];
-  const bool half_frames_;
+  const bool half_frame_;
   std::int64_t frame_ns_[2] = {0, 0};
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The two cameras that the configuration names.
 #pragma once
 
@@ -13,27 +14,31 @@
 
 namespace stereod {
 
-/// Two frame sources of the same size and what is known of their geometry.
+/// Two frame sources with the same frame size, and what is known of their geometry. Owns everything the
+/// sources use.
 struct StereoSource {
-  std::unique_ptr<VideoSystem> video;      ///< what the cameras are read with, if they are real
-  std::shared_ptr<V4l2PairState> cameras;  ///< what they know of each other, if they are real
+  std::unique_ptr<v4l2::VideoSystem> video;      ///< access to the kernel; null unless the cameras are real
+  std::shared_ptr<v4l2::V4l2PairState> cameras;  ///< state that both cameras share; null unless they are real
   std::unique_ptr<FrameSource> left, right;
   std::string left_name, right_name;             ///< for the status message
-  std::optional<Calibration> scene_calibration;  ///< of a rendered scene's own cameras
-  std::optional<Calibration> calibration;        ///< calibration_for() them
+  std::optional<Calibration> scene_calibration;  ///< of a rendered scene: exact
+  std::optional<Calibration> calibration;        ///< see calibration_for()
 };
 
-/// Opens what the configuration asks for. Throws FileError (a image or the calibration cannot be used, or
-/// is for another image size). Cameras are not opened yet: that is done in the thread that reads them, and
-/// none need be there.
+/// Creates the sources of @p config. Reads recordings and renders scenes; does not open cameras, which the
+/// capture threads do, and which may be plugged in at any later time.
+/// @throws FileError if an image, a log or the calibration cannot be read, or the calibration is for another
+/// image size.
 StereoSource open_stereo_source(const Config& config);
 
-/// The calibration for these cameras: the configured file's, else the rendered scene's own, else none. Throws
-/// FileError as above.
-std::optional<Calibration> calibration_for(const Config& config, const StereoSource& rig);
+/// Returns the configured calibration file's content, else the rendered scene's own calibration, else
+/// nothing. Applies rectify.alpha.
+/// @throws FileError as above.
+std::optional<Calibration> calibration_for(const Config& config, const StereoSource& source);
 
-/// What open_stereo_source() makes of cameras of this system, for tests. `log` takes what they have to say.
-StereoSource make_v4l2_stereo_source(const CamerasConfig& cameras, std::unique_ptr<VideoSystem> system,
-                                     const CameraLog& log);
+/// Creates the sources for two real cameras on @p system. @p log receives a sentence when a camera's state
+/// changes.
+StereoSource make_v4l2_stereo_source(const CamerasConfig& cameras, std::unique_ptr<v4l2::VideoSystem> system,
+                                     const v4l2::CameraLog& log);
 
 }  // namespace stereod

@@ -170,10 +170,10 @@ const status_t& StatusReporter::report() {
   status_.cpu_percent = 100 * (cpu_s - before_cpu_s_) / seconds;
   status_.rss_mb = process_rss_mb();
   if (const auto& cameras = pipeline_->rig().cameras) {
-    const PhaseSyncReport phase = cameras->phase();
-    status_.sync_state = name_of(phase.state);
-    status_.sync_skew_ms = phase.skew_ms;
-    status_.sync_restarts = phase.restarts;
+    const v4l2::PhaseSyncReport sync = cameras->sync_report();
+    status_.sync_state = v4l2::name_of(sync.state);
+    status_.sync_skew_ms = sync.skew_ms;
+    status_.sync_restarts = sync.restarts;
   }
   fill_camera(status_.left, now.left, before_.left, seconds);
   fill_camera(status_.right, now.right, before_.right, seconds);
@@ -203,7 +203,7 @@ Activity StatusReporter::recent_activity(const PipelineStats& now, std::int64_t 
 void StatusReporter::fill_camera(camera_status_t& message, const CameraStats& now, const CameraStats& before,
                                  double seconds) {
   const SourceReport& report = now.report;
-  message.state = report.state;
+  message.state = name_of(report.state);
   message.reason = report.reason.substr(0, kMaxText);
   message.connected = report.device.substr(0, kMaxText);
   message.format = report.format;

@@ -1,6 +1,7 @@
-// Any bytes as a buffer of a camera: the checks, the stamps, the JPEG decoder, the luma. Whatever is taken
-// for a frame must be readable to its last pixel. Built with clang and -fsanitize=fuzzer this is a fuzzer;
-// else fuzz_by_mutation.cpp drives it, as a test.
+// SPDX-License-Identifier: BSD-3-Clause
+// Arbitrary bytes as a camera's buffer: checks, timestamps, JPEG decoder, luma. An accepted frame must be
+// readable to its last pixel. Built with clang and -fsanitize=fuzzer this is a fuzzer; otherwise
+// fuzz_by_mutation.cpp runs it as a test.
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -16,9 +17,11 @@ bool last_input_was_a_frame = false;
 
 namespace {
 
+using namespace v4l2;
+
 constexpr std::int64_t kNow = 5'000'000'000;
 
-/// Takes the head of the input as the driver's answer, the rest as the buffer.
+/// The head of the input is the driver's answer, the rest is the buffer.
 struct Input {
   Input(const std::uint8_t* data, std::size_t size) {
     constexpr std::size_t kHead = 16;
@@ -26,7 +29,7 @@ struct Input {
     std::memcpy(head, data, size < kHead ? size : kHead);
     const std::span<const PixelFormat> formats = pixel_formats();
     format = formats[head[0] % formats.size()];
-    device.pixels = format.pixels;
+    device.fourcc = format.fourcc;
     device.size = {16 + head[1] % 4 * 16, 8 + head[2] % 4 * 8};
     device.bytes_per_line = head[3];
     filled.error = (head[4] & 1) != 0;
@@ -42,10 +45,10 @@ struct Input {
   DeviceFormat device;
   FilledBuffer filled;
   std::vector<std::uint8_t>
-      buffer;  // of just its length, so that an address sanitizer sees a read past its end
+      buffer;  // of the exact length, so that the address sanitizer sees a read past its end
 };
 
-volatile unsigned read_all;  // so that the compiler does not leave the reading out
+volatile unsigned read_all;  // keeps the compiler from omitting the reads
 
 unsigned sum_of(const LumaView& luma) {
   unsigned sum = 0;
@@ -63,30 +66,30 @@ void check(const Input& input) {
   static JpegLumaDecoder decoder;
   last_input_was_a_frame = false;
   FrameDrop drop = FrameDrop::kNoRoom;
-  const std::size_t least = least_bytes(input.format, input.device);
-  if (!is_complete(input.filled, input.buffer.size(), least, drop)) {
+  const std::size_t min_bytes = min_buffer_bytes(input.format, input.device);
+  if (!is_complete(input.filled, input.buffer.size(), min_bytes, drop)) {
     must(drop == FrameDrop::kDriverError || drop == FrameDrop::kEmpty || drop == FrameDrop::kShort);
     return;
   }
-  TimestampFilter stamps;
-  stamps.begin(33'333'333, 0);
+  TimestampFilter timestamps;
+  timestamps.reset(33'333'333, 0);
   std::int64_t start_ns = 0;
-  if (!stamps.start_of_exposure(input.filled, kNow, start_ns, drop)) {
+  if (!timestamps.start_of_exposure(input.filled, kNow, start_ns, drop)) {
     must(drop == FrameDrop::kStale);
   } else {
     must(start_ns <= kNow + 20'000'000 && start_ns >= kNow - 1'100'000'000);
   }
-  GrayImage picture(input.device.size);
+  GrayImage image(input.device.size);
   const std::span<const std::uint8_t> bytes(input.buffer.data(), input.filled.bytes);
   switch (input.format.work) {
     case LumaWork::kNone:
       read_all = sum_of(luma_in_place(input.format, input.device, input.buffer.data()));
       break;
     case LumaWork::kScale:
-      scale_y10(bytes.data(), row_stride(input.format, input.device), picture.view());
+      scale_y10(bytes.data(), row_stride(input.format, input.device), image.view());
       break;
     case LumaWork::kJpeg:
-      if (!decoder.decode(bytes, picture.view(), drop)) {
+      if (!decoder.decode(bytes, image.view(), drop)) {
         must(drop == FrameDrop::kNoJpeg || drop == FrameDrop::kJpegSize || drop == FrameDrop::kJpegDamaged);
         return;
       }

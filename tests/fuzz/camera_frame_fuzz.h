@@ -1,4 +1,5 @@
-// What the fuzz target tells its driver.
+// SPDX-License-Identifier: BSD-3-Clause
+// The fuzz target and what it tells its driver.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace stereod {
 
-/// Whether the latest input was taken for a frame.
+/// True if the latest input was accepted as a frame.
 extern bool last_input_was_a_frame;
 
 }  // namespace stereod

@@ -1,4 +1,5 @@
-// Two cameras of a FakeVideo as the daemon reads them, driven by hand.
+// SPDX-License-Identifier: BSD-3-Clause
+// Two V4L2 cameras on a FakeVideo, driven by the test.
 #pragma once
 
 #include <functional>
@@ -9,7 +10,7 @@
 #include "daemon/capture/v4l2/v4l2_camera.h"
 #include "tests/support/fake_video.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 
 struct CameraBench {
   explicit CameraBench(bool real_time = false) : video(real_time) {
@@ -40,7 +41,7 @@ struct CameraBench {
     right = std::make_unique<V4l2Camera>(video, pair, Side::kRight, config, to_log);
   }
 
-  /// Lets a camera's thread go round until it lends a frame; an empty lease if none comes in so much time.
+  /// Calls next() until the camera lends a frame. Returns an empty lease after @p within_ms.
   FrameLease frame(V4l2Camera& camera, std::int64_t within_ms = 10'000) {
     const std::int64_t until = video.now_ns() + within_ms * 1'000'000;
     while (video.now_ns() < until) {
@@ -49,7 +50,7 @@ struct CameraBench {
     return {};
   }
 
-  /// Runs both cameras for a time; how many frames each gave.
+  /// Runs both cameras for @p ms and returns the number of frames of each.
   struct Frames {
     int left = 0, right = 0;
   };
@@ -72,4 +73,4 @@ struct CameraBench {
   std::unique_ptr<V4l2Camera> left, right;
 };
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Encoding with TurboJPEG.
 #include "tests/support/camera_jpeg.h"
 
 #include <turbojpeg.h>
@@ -16,7 +18,7 @@ std::vector<std::uint8_t> camera_jpeg(Size size, int value, int restart_rows) {
       rgb.insert(rgb.end(), {level, level, level});
     }
   }
-  // TurboJPEG takes this from the environment alone.
+  // TurboJPEG reads this only from the environment.
   if (restart_rows > 0) setenv("TJ_RESTART", std::to_string(restart_rows).c_str(), 1);
   tjhandle encoder = tjInitCompress();
   unsigned char* out = nullptr;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // JPEGs as webcams send them.
 #pragma once
 
@@ -8,10 +9,11 @@
 
 namespace stereod {
 
-/// A image as a 4:2:2 color JPEG. Its luma is about `value`, or a gradient if that is negative.
+/// Returns a 4:2:2 color JPEG whose luma is about @p value, or a gradient if @p value is negative. @p
+/// restart_rows: rows of blocks between restart markers, 0 = none.
 std::vector<std::uint8_t> camera_jpeg(Size size, int value, int restart_rows = 0);
 
-/// The same file without its Huffman tables, as UVC cameras send it.
+/// Returns the same file without its Huffman tables, as UVC cameras send it.
 std::vector<std::uint8_t> without_huffman_tables(const std::vector<std::uint8_t>& jpeg);
 
 }  // namespace stereod

@@ -1,4 +1,5 @@
-// Cameras that exist only in a test: V4L2's answers are scripted, and time is the test's own.
+// SPDX-License-Identifier: BSD-3-Clause
+// Scripted cameras for tests: V4L2's answers and the time are under control of the test.
 #pragma once
 
 #include <cstdint>
@@ -15,27 +16,27 @@
 #include "daemon/capture/v4l2/video_device.h"
 #include "daemon/capture/v4l2/video_system.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 
-/// What a fake camera delivers for one frame; a script may change it.
+/// One frame of a fake camera; a script may change it.
 struct FakeFrame {
   std::uint32_t sequence = 0;
   std::int64_t timestamp_ns = 0;
   std::uint32_t flags = 0;  ///< V4L2_BUF_FLAG_*
   std::vector<std::uint8_t> bytes;
-  std::optional<std::uint32_t> bytesused;  ///< instead of the number of bytes
+  std::optional<std::uint32_t> bytesused;  ///< overrides the number of bytes
 };
 
 struct FakeMode {
-  std::uint32_t pixels = fourcc('Y', 'U', 'Y', 'V');
+  std::uint32_t fourcc = make_fourcc('Y', 'U', 'Y', 'V');
   Size size{64, 48};
   std::vector<double> rates{30};
 };
 
 struct FakeControl {
   std::uint32_t id = 0;
-  std::string title;  ///< as the driver writes it: "Exposure Time, Absolute"
-  std::int32_t least = 0, most = 255, preset = 0, value = 0;
+  std::string title;  ///< as the driver reports it: "Exposure Time, Absolute"
+  std::int32_t minimum = 0, maximum = 255, default_value = 0, value = 0;
   std::uint32_t type = 1;  ///< V4L2_CTRL_TYPE_INTEGER
   std::uint32_t flags = 0;
 };
@@ -47,54 +48,54 @@ struct FakeCamera {
   std::string serial;
   std::string card = "Fake Camera";
   std::string bus = "usb-0000:00:14.0-1";
-  std::string function;  ///< two nodes of one have the same; empty: of its own
+  std::string function;  ///< the same for two nodes of one USB function; empty = a function of its own
   bool capture = true;   ///< false: a metadata node
   bool plugged = true;
   bool frozen = false;
-  bool thaws_at_start = false;  ///< what began or went on while it was frozen stays silent
+  bool thaws_at_start =
+      false;  ///< a stream that was started or ran while frozen stays silent until the next start
   std::vector<FakeMode> modes{FakeMode{}};
   std::vector<FakeControl> controls;
 
-  /// The driver answers a request (VIDIOC_*, kFakeOpen, kFakeMap or kFakePoll) with this error, so many
-  /// times.
+  /// An error with which the driver answers a request (VIDIOC_*, kFakeOpen, kFakeMap, kFakePoll).
   struct Fault {
     int error = 0;
-    int times = 1;
-    int after = 0;  ///< so many answers are right first
+    int times = 1;  ///< number of failing calls
+    int after = 0;  ///< number of successful calls before
   };
   std::map<unsigned long, Fault> faults;
-  std::function<void(DeviceFormat&)> on_set_format;  ///< what the driver makes of a format
+  std::function<void(DeviceFormat&)> on_set_format;  ///< changes the requested format
   std::function<void(FakeFrame&)> on_frame;
   std::function<void(const FakeControl&)> on_set_control;
 
-  std::int64_t period_ns = 33'333'333;           ///< of the sensor; S_PARM sets it to a rate of the mode
-  std::int64_t drift_ppb = 0;                    ///< how much longer its period is
-  bool keeps_phase = false;                      ///< the sensor runs on when the stream stops
-  std::int64_t phase_ns = 0;                     ///< of the sensor's grid, if it does
-  std::int64_t start_latency_ns = 50'000'000;    ///< from STREAMON to the first exposure, if it does not
-  std::uint32_t stamp_flags = 0x2000 | 0x10000;  ///< monotonic, start of exposure
+  std::int64_t period_ns = 33'333'333;               ///< frame period of the sensor; S_PARM sets it
+  std::int64_t drift_ppb = 0;                        ///< by which the period is longer
+  bool keeps_phase = false;                          ///< the sensor keeps running while the stream is stopped
+  std::int64_t phase_ns = 0;                         ///< phase of such a sensor
+  std::int64_t start_latency_ns = 50'000'000;        ///< from STREAMON to the first exposure of other sensors
+  std::uint32_t timestamp_flags = 0x2000 | 0x10000;  ///< monotonic, start of exposure
 
-  // What happened.
-  std::vector<std::string> log;  ///< of controls set: "gain=5"
+  // Records.
+  std::vector<std::string> log;  ///< controls that were set: "gain=5"
   int starts = 0, opens = 0;
 };
 
 inline constexpr unsigned long kFakeOpen = 1, kFakeMap = 2, kFakePoll = 3;
 
-/// Simulated: time stands still but for waits, which jump to the next thing that happens. Real: time is the
-/// clock's, for tests with threads.
+/// The kernel with fake cameras. Simulated time advances only in waits, which jump to the next event. Real
+/// time is that of the clock, for tests with threads.
 class FakeVideo final : public VideoSystem {
  public:
   explicit FakeVideo(bool real_time = false) : real_time_(real_time) {}
 
-  /// What all streams together may put on the bus, bytes a second; 0: anything. A stream that is too much is
-  /// refused with ENOSPC, or starts and never delivers if `starve`.
+  /// Capacity of the bus [bytes/s], 0 = unlimited. A stream that exceeds it is refused with ENOSPC or, with
+  /// `starve`, starts and never delivers.
   double bus_capacity = 0;
   bool starve = false;
 
-  /// References stay valid.
+  /// Adds a camera. The reference stays valid.
   FakeCamera& add(FakeCamera camera);
-  /// Does something at a time (simulated time begins at 1000 s).
+  /// Runs an action at a time (simulated time begins at 1000 s).
   void at(std::int64_t time_ns, std::function<void()> action);
   void plug(FakeCamera& camera, bool plugged);
   int open_descriptors() const { return static_cast<int>(open_.size()); }
@@ -103,7 +104,7 @@ class FakeVideo final : public VideoSystem {
 
   std::vector<VideoNode> nodes() override;
   std::string resolve(const std::string& name) override;
-  std::string camera_of(const std::string& node) override;
+  std::string camera_id(const std::string& node) override;
   std::unique_ptr<Waiter> make_waiter() override;
   int open(const std::string& node, bool convert) override;
   void close(int descriptor) noexcept override;
@@ -121,9 +122,9 @@ class FakeVideo final : public VideoSystem {
     bool convert = false;
     bool streaming = false;
     bool starved = false;
-    bool stuck = false;         // until the stream is started anew
-    bool no_buffer_yet = true;  // was queued since the last stop
-    bool gone = false;          // its camera was unplugged
+    bool stuck = false;         // until the next start
+    bool no_buffer_yet = true;  // no buffer was queued since the last stop
+    bool unplugged = false;
     std::vector<std::vector<std::uint8_t>> buffers;
     std::deque<std::uint32_t> queued;
     struct Filled {
@@ -160,4 +161,4 @@ class FakeVideo final : public VideoSystem {
   std::uint64_t device_changes_ = 0;
 };
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,4 +1,5 @@
-// What a recording of a stereod holds.
+// SPDX-License-Identifier: BSD-3-Clause
+// The frames in a log of stereod's messages.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace stereod {
 
-/// The complete frames of a log, by their times.
+/// Returns the complete frames of a log by their utime.
 inline std::map<std::int64_t, StereoFrame> frames_of(const std::filesystem::path& file,
                                                      const std::string& prefix) {
   std::map<std::int64_t, StereoFrame> frames;

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rendering and writing recordings.
 #include "tests/support/recorded_pairs.h"
 
 #include <string>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finding and reading the files of a recording.
 #include "daemon/capture/replay/recording.h"
 
 #include <algorithm>
@@ -21,8 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMemoryLimit = std::size_t{1} << 30;
 
-/// A image's number as text, so that it may be of any length: how many digits without leading zeros, and
-/// those. So the longer number is the larger one.
+/// The number in a file name, of any length: the count of its digits without leading zeros, and the digits.
+/// Comparing them orders by value.
 using FrameNumber = std::pair<std::size_t, std::string>;
 
 using NumberedFiles = std::map<FrameNumber, fs::path>;
@@ -34,9 +36,10 @@ std::string lower_case(std::string text) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-bool is_picture(const fs::path& path) {
-  const std::string ending = lower_case(path.extension().string());
-  return ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".pgm" || ending == ".ppm";
+bool is_image(const fs::path& path) {
+  const std::string extension = lower_case(path.extension().string());
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".pgm" ||
+         extension == ".ppm";
 }
 
 /// Splits "left_007" into "left_" and 7.
@@ -50,19 +53,19 @@ std::pair<std::string, FrameNumber> split_number(const std::string& stem) {
 void add_file(NumberedFiles& files, const FrameNumber& number, const fs::path& path) {
   const auto [place, added] = files.emplace(number, path);
   if (!added) {
-    throw FileError(path.string() + ": has the same number as " + place->second.filename().string() +
-                    "; each pair needs its own");
+    throw FileError(path.string() + ": same number as " + place->second.filename().string() +
+                    "; each pair needs its own number");
   }
 }
 
-/// The directory's entries, sorted, so that messages do not depend on the file system.
+/// Returns the directory's entries, sorted so that messages do not depend on the file system.
 std::vector<fs::path> entries_of(const fs::path& directory) {
   std::error_code error;
   if (!fs::exists(directory, error)) {
-    throw FileError(directory.string() + ": the directory does not exist");
+    throw FileError(directory.string() + ": no such directory");
   }
   if (!fs::is_directory(directory, error)) {
-    throw FileError(directory.string() + ": is no directory; a directory of numbered pairs is needed");
+    throw FileError(directory.string() + ": not a directory; a directory of numbered pairs is needed");
   }
   std::vector<fs::path> entries;
   fs::directory_iterator next(directory, error);
@@ -72,12 +75,12 @@ std::vector<fs::path> entries_of(const fs::path& directory) {
   return entries;
 }
 
-/// The images of a directory that holds one side only.
+/// Returns the numbered images of a directory that contains one side.
 NumberedFiles numbered_files(const fs::path& directory) {
   NumberedFiles files;
   for (const fs::path& path : entries_of(directory)) {
     const std::string stem = path.stem().string();
-    if (!is_picture(path) || stem.empty() || !is_digit(stem.back())) continue;
+    if (!is_image(path) || stem.empty() || !is_digit(stem.back())) continue;
     add_file(files, split_number(stem).second, path);
   }
   return files;
@@ -88,12 +91,12 @@ bool begins_with_side(std::string prefix, char side) {
   return prefix == (side == 'l' ? "left" : "right") || prefix == std::string(1, side);
 }
 
-/// Every left file with its right one.
+/// Joins left and right files with the same number.
 std::vector<PairFiles> join(const NumberedFiles& left, const NumberedFiles& right) {
   const auto require_partner = [](const fs::path& path, const FrameNumber& number,
                                   const NumberedFiles& others, const char* side) {
     if (others.contains(number)) return;
-    throw FileError(path.string() + ": has no partner; there is no " + side + " image with its number");
+    throw FileError(path.string() + ": no " + side + " image with the same number");
   };
   std::vector<PairFiles> pairs;
   for (const auto& [number, path] : left) {
@@ -126,7 +129,7 @@ std::vector<PairFiles> find_pairs(const fs::path& directory) {
     NumberedFiles left;
     NumberedFiles right;
     for (const fs::path& path : entries) {
-      if (!is_picture(path)) continue;
+      if (!is_image(path)) continue;
       const auto [prefix, number] = split_number(lower_case(path.stem().string()));
       if (begins_with_side(prefix, 'l')) add_file(left, number, path);
       if (begins_with_side(prefix, 'r')) add_file(right, number, path);
@@ -134,10 +137,9 @@ std::vector<PairFiles> find_pairs(const fs::path& directory) {
     pairs = join(left, right);
   }
   if (pairs.empty()) {
-    throw FileError(
-        directory.string() +
-        ": there is no stereo pair in it; files like left_00.png and right_00.png, or directories left "
-        "and right with numbered images, are needed");
+    throw FileError(directory.string() +
+                    ": no stereo pair found; files like left_00.png and right_00.png, or directories left "
+                    "and right with numbered images, are needed");
   }
   return pairs;
 }
@@ -161,7 +163,7 @@ std::vector<RecordedPair> load(const std::vector<PairFiles>& files, const fs::pa
         2 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     if (files.size() > kMemoryLimit / bytes) {
       throw FileError(name.string() + ": " + std::to_string(files.size()) + " pairs of " + to_string(size) +
-                      " pixels do not fit into 1 GiB, the most that is replayed; take out some");
+                      " pixels exceed the limit of 1 GiB; remove some");
     }
     pairs.push_back(std::move(pair));
   }

@@ -1,4 +1,5 @@
-// Stereo pairs from files, in memory.
+// SPDX-License-Identifier: BSD-3-Clause
+// Stereo pairs from image files, in memory.
 #pragma once
 
 #include <filesystem>
@@ -18,21 +19,23 @@ struct PairFiles {
   std::filesystem::path right;
 };
 
-/// The image files of a directory's pairs, in the order of their numbers. Either it has the directories `left`
-/// and `right` (or `l` and `r`), in which a image's number is the digits that its name ends with, or it has
-/// files like left_00.png and right_00.png: `left` or `l`, perhaps `_` or `-`, the number (without one: the
-/// only pair). Capital letters are the same as small ones. Images are .png, .jpg, .jpeg, .pgm and .ppm;
-/// other files do not matter. Throws FileError: no pair, a image without its partner, two with one number.
+/// Returns the image files of a directory's pairs, in the order of their numbers. The directory contains
+/// either
+///   - the directories `left` and `right` (or `l` and `r`), whose image files end with a number, or
+///   - files like left_00.png and right_00.png: `left` or `l`, an optional `_` or `-`, and the number. A pair
+///     without a number must be the only one.
+/// Names are not case-sensitive. Images are .png, .jpg, .jpeg, .pgm and .ppm; other files are ignored.
+/// @throws FileError if there is no pair, an image without a partner, or two images with one number.
 std::vector<PairFiles> find_pairs(const std::filesystem::path& directory);
 
-/// At least one pair, all images of one size, at most 1 GiB in total.
+/// One or more stereo pairs: all images have one size and fit into 1 GiB together. Immutable.
 class Recording {
  public:
-  /// One pair. Throws FileError: a file cannot be read (read_gray()) or the two differ in size.
+  /// Reads one pair. @throws FileError if a file cannot be read (see read_gray()) or the sizes differ.
   Recording(const std::filesystem::path& left, const std::filesystem::path& right);
 
-  /// All pairs that find_pairs() finds. Throws FileError: what that throws, different sizes, more than 1 GiB,
-  /// a file that cannot be read.
+  /// Reads all pairs that find_pairs() finds. @throws FileError as find_pairs() does, and if a file cannot be
+  /// read, the sizes differ, or the images need more than 1 GiB.
   explicit Recording(const std::filesystem::path& directory);
 
   Size frame_size() const { return pairs_.front().left.size(); }

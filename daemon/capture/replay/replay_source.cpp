@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lending recorded images.
 #include "daemon/capture/replay/replay_source.h"
 
 #include <atomic>
@@ -13,7 +15,7 @@ namespace stereod {
 
 namespace {
 
-/// What the two sources share.
+/// State that the two sources share.
 struct Replay {
   Replay(Recording pairs, const ReplayOptions& replay_options)
       : recording(std::move(pairs)), options(replay_options), clock(options.fps, {{}, {}}) {}
@@ -39,13 +41,13 @@ class ReplaySource final : public FrameSource, private BufferOwner {
     if (!replay_->options.loop && number >= pairs.size()) {
       state_ = SourceState::kFinished;
       replay_->clock.give_back(camera_);
-      replay_->clock.stop(camera_);  // the other camera must not wait for this one
+      replay_->clock.stop(camera_);  // the other camera no longer waits for this one
       return {};
     }
     state_ = SourceState::kStreaming;
-    const GrayView picture = (pairs[number % pairs.size()].*side_).view();
+    const GrayView image = (pairs[number % pairs.size()].*side_).view();
     Frame frame;
-    frame.luma = {picture.row(0), picture.size(), picture.stride(), 1};
+    frame.luma = {image.row(0), image.size(), image.stride(), 1};
     frame.captured_ns = tick->captured_ns;
     frame.sequence = static_cast<std::uint32_t>(tick->number);
     return {frame, *this, 0};

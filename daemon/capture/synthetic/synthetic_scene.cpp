@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rendering the scene and its ground truth.
 #include "daemon/capture/synthetic/synthetic_scene.h"
 
 #include <algorithm>
@@ -15,12 +17,12 @@ namespace stereod {
 
 namespace {
 
-// Two cameras mounted as well as a hobbyist mounts them. The frame of reference is the rectified pair itself:
-// its x axis is the baseline and its z axis the mean of the two optical axes (Fusiello, Trucco and Verri
-// 2000), so a camera's mounting error and its rectifying rotation are one and the same matrix.
+// Two cameras with the mounting errors of a home-made pair. The frame of reference is the rectified pair: its
+// x axis is the baseline, its z axis the mean of the two optical axes (Fusiello, Trucco and Verri 2000). A
+// camera's mounting error and its rectifying rotation are therefore the same matrix.
 Calibration make_calibration(Size size, double baseline_m) {
   const double width = size.width, height = size.height;
-  const double unit = std::max(width, height * 4 / 3);  // a narrow image is cut out of a wide one
+  const double unit = std::max(width, height * 4 / 3);  // a narrow image is a crop of a wide one
   const double middle_x = (width - 1) / 2, middle_y = (height - 1) / 2;
 
   CameraCalibration left;
@@ -33,8 +35,8 @@ Calibration make_calibration(Size size, double baseline_m) {
   right.camera.k1 = -0.265, right.camera.k2 = 0.08, right.camera.p1 = -0.0003, right.camera.p2 = 0.0005;
   right.rotation = rotation_about({-0.005, 0.010, -0.008});
 
-  // So much shorter than the cameras' that the rectified image shows nearly all that both cameras see, and
-  // hardly anything that they do not.
+  // Shorter than the cameras' focal lengths, so that the rectified image shows nearly everything that both
+  // cameras see and hardly any pixel outside their view.
   left.projection = {0.80 * unit, 0.80 * unit, middle_x, middle_y};
   right.projection = left.projection;
 
@@ -52,7 +54,7 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// Of mean 0 and variance 1, and normal enough: the sum of four evenly distributed numbers.
+// Returns an approximately normal number with mean 0 and variance 1: the sum of four evenly distributed ones.
 float normal(std::uint64_t random) {
   constexpr float kMean = 4 * 65535 / 2.0F;
   constexpr float kDeviation = 37837;
@@ -93,7 +95,7 @@ SyntheticScene::View SyntheticScene::make_view(const CameraCalibration& calibrat
       const CameraModel& camera = calibration.camera;
       const Point2 pixel{static_cast<double>(x), static_cast<double>(y)};
       const Point2 straight =
-          camera.undistort(camera.from_pixel(pixel)).value();  // this lens never folds over
+          camera.undistort(camera.from_pixel(pixel)).value();  // this lens has no foldover
       const Vector3 ray = calibration.rotation * Vector3{straight.x, straight.y, 1};
       view.rays.at(x, y) = {static_cast<float>(ray.x / ray.z), static_cast<float>(ray.y / ray.z)};
       view.still.at(x, y) = world_.still_hit({view.origin_x, view.rays.at(x, y).x, view.rays.at(x, y).y});
@@ -118,8 +120,8 @@ GrayImage SyntheticScene::render(const View& view, int frame, const SyntheticBoa
       if (board != nullptr) hit = board->hit(ray, hit);
       random += 0x9e3779b97f4a7c15;
       const float value = view.gain * hit.brightness + view.black_level + kNoise * normal(mixed(random));
-      const float half_more = value + 0.5F;  // for the conversion to round to the nearest
-      out[x] = static_cast<std::uint8_t>(std::clamp(half_more, 0.0F, 255.0F));
+      const float shifted = value + 0.5F;  // so that the conversion rounds to nearest
+      out[x] = static_cast<std::uint8_t>(std::clamp(shifted, 0.0F, 255.0F));
     }
   }
   return image;
@@ -159,7 +161,8 @@ Image<std::uint8_t> SyntheticScene::visible_in_right(int frame) const {
       const SceneRay ray = rectified_ray(right_, right_x, static_cast<float>(y));
       const float nearest = moving.hit(ray, world_.still_hit(ray)).depth;
       const auto own = static_cast<float>(depth_m(calibration_, d));
-      visible.at(x, y) = nearest > own * 0.999F ? 1 : 0;  // what hides it is nearer by more than rounding
+      visible.at(x, y) =
+          nearest > own * 0.999F ? 1 : 0;  // an occluder is nearer by more than a rounding error
     }
   }
   return visible;

@@ -1,4 +1,5 @@
-// A rendered scene with two flawed cameras, of which everything is known exactly.
+// SPDX-License-Identifier: BSD-3-Clause
+// A rendered scene with two imperfect cameras and exact ground truth.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +12,27 @@
 
 namespace stereod {
 
-/// The world of SyntheticWorld through two cameras as they come: focal lengths and principal points differ,
-/// the lenses distort, neither looks quite straight ahead, the right one exposes less, both are noisy. The
-/// same arguments give the same images on every run.
+/// Renders SyntheticWorld through two cameras like inexpensive webcams: different focal lengths and principal
+/// points, lens distortion, slightly rotated optical axes, a darker right camera, noise. The same arguments
+/// give the same images on every run.
 class SyntheticScene {
  public:
-  /// Frames `frames` ≥ 1 make a loop without seam. `size` from 64×48 up; focal lengths and so disparities
-  /// grow with it: at 640×480 these are 6…55 px. `baseline_m` > 0. `boxes`: false leaves floor and wall
-  /// alone. Throws std::invalid_argument.
+  /// @p size [px, ≥ 64×48]: focal lengths and disparities grow with it; at 640×480 disparities are 6…55 px.
+  /// @p frames [≥ 1]: length of a seamless loop. @p baseline_m [m, > 0]. @p boxes: false shows only floor and
+  /// wall.
+  /// @throws std::invalid_argument if an argument is out of range.
   explicit SyntheticScene(Size size = {640, 480}, int frames = 24, double baseline_m = 0.06,
                           bool boxes = true);
 
   Size size() const { return calibration_.image; }
   int frames() const { return frames_; }
 
-  /// Exact, not estimated: what a perfect calibration of these cameras would find.
+  /// Returns the exact parameters, which a perfect calibration would find.
   const Calibration& calibration() const { return calibration_; }
 
-  /// What the cameras see in a frame ≥ 0, counted on past the end of the loop. Any number of threads at once.
-  /// `board`: stands before all else, its place told for the rectified left camera; nullptr: none.
+  /// Renders frame @p frame [≥ 0] of a camera; numbers continue past the end of the loop. Any number of
+  /// threads at once.
+  /// @p board: an additional board, posed in the frame of the rectified left camera; may be null.
   GrayImage render_left(int frame, const SyntheticBoard* board = nullptr) const {
     return render(left_, frame, board);
   }
@@ -37,12 +40,12 @@ class SyntheticScene {
     return render(right_, frame, board);
   }
 
-  /// The true disparity, in pixels and fractions, of each pixel of the rectified left image; NaN where the
-  /// left camera did not look.
+  /// Returns the true disparity [px] of each pixel of the rectified left image, NaN outside the left camera's
+  /// view.
   Image<float> ground_truth(int frame) const;
 
-  /// 1 for each pixel of the rectified left image whose point the rectified right image shows too, else 0:
-  /// hidden behind something nearer or beyond the border.
+  /// Returns 1 for each pixel of the rectified left image whose point is also visible in the rectified right
+  /// image, 0 if it is occluded or outside.
   Image<std::uint8_t> visible_in_right(int frame) const;
 
  private:
@@ -54,8 +57,8 @@ class SyntheticScene {
     float gain, black_level;  // the exposure
     std::uint64_t noise_seed;
     RectifyMap map;
-    Image<Direction> rays;  // of the camera's own, distorted pixels
-    Image<SceneHit> still;  // what never moves, seen along them
+    Image<Direction> rays;  // through the camera's own, distorted pixels
+    Image<SceneHit> still;  // the static part of the scene along those rays
   };
 
   View make_view(const CameraCalibration& camera, double origin_x, float gain, float black_level,

@@ -1,4 +1,5 @@
-// The synthetic scene as a pair of cameras.
+// SPDX-License-Identifier: BSD-3-Clause
+// A rendered scene as two cameras.
 #pragma once
 
 #include <atomic>
@@ -14,28 +15,28 @@
 namespace stereod {
 
 struct SyntheticOptions {
-  Size size{640, 480};  ///< from 64×48 up
-  double fps = 30;      ///< 0…1000; 0 is as fast as frames are given back
-  int frames = 24;      ///< rendered beforehand and shown over and over, ≥ 1; not with a board
-  bool board = false;   ///< a chessboard to calibrate with, in an empty room, instead of boxes
-  std::chrono::microseconds skew{0};  ///< how much later than the left camera the right one exposes
+  Size size{640, 480};  ///< [px, ≥ 64×48]
+  double fps = 30;      ///< [Hz, 0…1000]; 0 = as fast as frames are given back
+  int frames = 24;      ///< [≥ 1] length of the loop, rendered beforehand; ignored with a board
+  bool board = false;   ///< show a calibration chessboard in an empty room instead of boxes
+  std::chrono::microseconds skew{0};  ///< how much later the right camera exposes
 };
 
-/// One of the two cameras. Lends the rendered frames themselves, which nobody may write to; number n is frame
-/// n modulo the length of the loop, and FrameClock says when it comes.
+/// One of the two cameras. Lends the rendered images themselves, which are read-only. Frame n shows entry n
+/// modulo the loop's length; FrameClock decides when it is due.
 class SyntheticSource final : public FrameSource, private BufferOwner {
  public:
-  /// What the two cameras share.
+  /// State that the two cameras share.
   struct Loop {
-    std::vector<GrayImage> pictures[2];  // of the left camera, of the right one
-    std::vector<std::size_t> order;      // which of them each frame of the loop shows
+    std::vector<GrayImage> images[2];  // of the left and of the right camera
+    std::vector<std::size_t> order;    // for each frame of the loop, the index of its image
     FrameClock clock;
   };
 
-  /// `camera`: 0 is the left one, 1 the right one.
+  /// @p camera: 0 = left, 1 = right.
   SyntheticSource(std::shared_ptr<Loop> loop, int camera);
 
-  Size frame_size() const override { return pictures_.front().size(); }
+  Size frame_size() const override { return images_.front().size(); }
   FrameLease next(std::chrono::milliseconds timeout) noexcept override;
   SourceState state() const noexcept override;
   void stop() noexcept override { loop_->clock.stop(camera_); }
@@ -45,22 +46,22 @@ class SyntheticSource final : public FrameSource, private BufferOwner {
 
   std::shared_ptr<Loop> loop_;
   int camera_;
-  const std::vector<GrayImage>& pictures_;
+  const std::vector<GrayImage>& images_;
   std::atomic<bool> streaming_{false};
 };
 
-/// The board that `board` shows. It is out of sight at first, then is held for two seconds (at fps 0: four
-/// frames) in each of kBoardPlaces places, as a person should hold it.
+/// The board of SyntheticOptions::board. It is out of sight at first, then stays for two seconds (fps 0: four
+/// frames) at each of kBoardPlaces places.
 inline constexpr BoardShape kPracticeBoard{9, 6, 0.025};
 inline constexpr int kBoardPlaces = 18;
 
-/// Frame n of both is of one moment: the same number, capture times exactly `skew` apart.
+/// Frames n of both cameras have the same number and capture times exactly `skew` apart.
 struct SyntheticPair {
   std::unique_ptr<SyntheticSource> left, right;
   Calibration calibration;
 };
 
-/// Renders the loop, on up to four threads. Throws std::invalid_argument.
+/// Renders the loop on up to four threads. @throws std::invalid_argument if an option is out of range.
 SyntheticPair make_synthetic_pair(const SyntheticOptions& options);
 
 }  // namespace stereod

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Geometry and textures of the room.
 #include "daemon/capture/synthetic/synthetic_world.h"
 
 #include <algorithm>
@@ -22,29 +24,29 @@ std::uint32_t hash(std::uint32_t x, std::uint32_t y, std::uint32_t salt) {
   return h ^ (h >> 15);
 }
 
-// A random number in [-1, 1) for each point of a lattice.
+// Returns a pseudorandom number in [−1, 1) for each point of a lattice.
 float lattice(int x, int y, std::uint32_t salt) {
   const auto bits =
       static_cast<std::int32_t>(hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), salt));
   return static_cast<float>(bits) * 0x1p-31F;
 }
 
-float between(float a, float b, float part) { return a + part * (b - a); }
+float interpolate(float a, float b, float part) { return a + part * (b - a); }
 
-int rounded_down(float value) {
+int floor_to_int(float value) {
   const int towards_zero = static_cast<int>(value);
   return towards_zero - (value < static_cast<float>(towards_zero) ? 1 : 0);
 }
 
-// Smooth between the points of a lattice of spacing 1. std::floor and std::lerp would take most of the time
-// here.
+// Interpolates smoothly between the points of a lattice with spacing 1. std::floor and std::lerp would
+// dominate the time of rendering.
 float value_noise(float u, float v, std::uint32_t salt) {
-  const int x = rounded_down(u), y = rounded_down(v);
+  const int x = floor_to_int(u), y = floor_to_int(v);
   const float fu = u - static_cast<float>(x), fv = v - static_cast<float>(y);
   const float su = fu * fu * (3 - 2 * fu), sv = fv * fv * (3 - 2 * fv);
-  const float upper = between(lattice(x, y, salt), lattice(x + 1, y, salt), su);
-  const float lower = between(lattice(x, y + 1, salt), lattice(x + 1, y + 1, salt), su);
-  return between(upper, lower, sv);
+  const float upper = interpolate(lattice(x, y, salt), lattice(x + 1, y, salt), su);
+  const float lower = interpolate(lattice(x, y + 1, salt), lattice(x + 1, y + 1, salt), su);
+  return interpolate(upper, lower, sv);
 }
 
 }  // namespace
@@ -77,9 +79,9 @@ SyntheticWorld::Box SyntheticWorld::make_box(float x, float y, float z, float ha
   return box;
 }
 
-// Of the angle between a face's normal and the line of sight to a point of it, not below 0.1. Seen from the
-// middle of the baseline, so that it is the same for both cameras. The point is (x, y, z), moved towards the
-// viewer by `nearer` along the normal.
+// Returns the cosine of the angle between a face's normal and the line of sight to a point on it, at least
+// 0.1. The line of sight starts in the middle of the baseline, so that the cosine is the same for both
+// cameras. The point is (x, y, z), moved toward the viewer by @p nearer along the normal.
 float SyntheticWorld::cosine(const Box& box, float x, float y, float z, int axis, float nearer) const {
   x -= middle_x_;
   const float along[3] = {box.cos_yaw * x - box.sin_yaw * z, y, box.sin_yaw * x + box.cos_yaw * z};
@@ -103,8 +105,8 @@ SceneHit SyntheticWorld::still_hit(const SceneRay& ray) const {
   const float x = ray.origin_x + room_depth * ray.x;
   const float y = room_depth * ray.y;
   if (floor_depth > kWallDepth) return {room_depth, 120 + noise(kWallTexture, x, y, room_depth / focal_px_)};
-  // The floor is seen at all angles down to a grazing one. Painted as it is seen from the middle of the
-  // baseline, it has structure of the same size in every pixel, in all directions.
+  // The floor is seen at all angles down to grazing ones. Its texture is projected from the middle of the
+  // baseline, so that its structure has the same size in pixels everywhere and in all directions.
   return {room_depth,
           105 + noise(kFloorTexture, (x - middle_x_) / room_depth, y / room_depth, 1 / focal_px_)};
 }
@@ -136,9 +138,9 @@ float SyntheticWorld::brightness(const Box& box, const BoxHit& hit, const SceneR
   const float z = hit.depth - box.z;
   const float local_x = box.cos_yaw * x - box.sin_yaw * z, local_z = box.sin_yaw * x + box.cos_yaw * z;
 
-  // A face seen at a slant is painted with a texture stretched as much, so that it looks even. By one factor
-  // all over the face, for the texture to stay fixed to it; where the face is slanted more, detail is left
-  // out.
+  // A slanted face has a texture stretched by the same factor, so that it looks even. The factor is constant
+  // over the face, which keeps the texture fixed to it; where the face is slanted more, fine octaves are
+  // omitted.
   const float slant = box.slant[hit.axis];
   const float u = hit.axis == 0 ? local_z * slant : hit.axis == 1 ? local_x : local_x * slant;
   const float v = hit.axis == 1 ? local_z * slant : y;
@@ -149,9 +151,8 @@ float SyntheticWorld::brightness(const Box& box, const BoxHit& hit, const SceneR
   return shade[hit.axis] + noise(box.texture + face, u, v, spacing);
 }
 
-// Three to four octaves, of which the finest has its lattice points 2 to 4 times `spacing` (a pixel's width
-// on the surface, meters) apart; an octave comes and goes by its weight, so no edge shows where the number
-// changes.
+// Sums three to four octaves. The finest one has a lattice of 2 to 4 times @p spacing (the width of a pixel
+// on the surface [m]). Octaves fade in and out, so that no edge is visible where their number changes.
 float SyntheticWorld::noise(unsigned texture, float u, float v, float spacing) const {
   constexpr int kOctaves = 4;
   constexpr float kContrast = 95;

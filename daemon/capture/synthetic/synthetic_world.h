@@ -1,4 +1,5 @@
-// What there is to see in the synthetic scene, and what a ray meets in it.
+// SPDX-License-Identifier: BSD-3-Clause
+// The objects of the synthetic scene, and where rays meet them.
 #pragma once
 
 #include <limits>
@@ -6,38 +7,37 @@
 
 namespace stereod {
 
-/// A ray of the rectified stereo pair: from (origin_x, 0, 0) along (x, y, 1). A point on it is known by its
-/// depth, its z in meters.
+/// A ray of the rectified stereo pair: from (origin_x, 0, 0) along (x, y, 1). A point on it is given by its
+/// depth z [m].
 struct SceneRay {
   float origin_x = 0;
   float x = 0;
   float y = 0;
 };
 
-/// Where a ray ends.
+/// Where a ray meets a surface.
 struct SceneHit {
   float depth = std::numeric_limits<float>::infinity();
-  float brightness = 0;  ///< of the surface there, 0…255, before camera and exposure
+  float brightness = 0;  ///< of the surface [0…255], before camera and exposure
 };
 
-/// A room: floor, back wall, boxes that stand still and boxes that move to and fro once in a loop of frames.
-/// The world's coordinates are those of the rectified left camera, in meters: x to the right, y down, z
-/// forward.
+/// A room with a floor, a back wall, static boxes, and boxes that oscillate once in a loop of frames.
+/// Coordinates are those of the rectified left camera [m]: x right, y down, z forward.
 ///
-/// Every surface carries a texture of its own, fixed to it: value noise of several octaves, the finest about
-/// three pixels apart at the surface's distance and none finer, so that block matching finds structure
-/// everywhere and no camera sees aliasing. The brightness of a point does not depend on the camera that looks
-/// at it.
+/// Every surface has its own texture, fixed to it: value noise of several octaves. The finest octave has a
+/// period of about three pixels at the surface's distance, so that block matching finds structure everywhere
+/// and no camera sees aliasing. The brightness of a point is the same for all cameras.
 class SyntheticWorld {
  public:
-  /// `focal_px`: focal length of the rectified cameras; the textures are made for it. `boxes`: false leaves
-  /// the room empty.
+  /// @p focal_px [px]: focal length of the rectified cameras, for which the textures are scaled. @p boxes:
+  /// false leaves the room empty.
   SyntheticWorld(double focal_px, double baseline_m, int frames, bool boxes = true);
 
-  /// What the ray meets of that which never moves. Always something: the wall closes the room.
+  /// Returns where the ray meets the static part of the room; the wall closes it, so there always is such a
+  /// point.
   SceneHit still_hit(const SceneRay& ray) const;
 
-  /// The boxes that move, at their places in one frame.
+  /// The moving boxes at their places in one frame.
   class MovingBoxes;
   MovingBoxes moving_boxes(int frame, float origin_x) const;
 
@@ -45,14 +45,14 @@ class SyntheticWorld {
   struct Box {
     float x, y, z;                 // center
     float half_x, half_y, half_z;  // half the sides
-    float cos_yaw, sin_yaw;        // turned about the y axis
-    float slant[3];                // cosines under which the faces across x, y and z are seen
+    float cos_yaw, sin_yaw;        // rotation about the y axis
+    float slant[3];                // cosine of the viewing angle of the faces normal to x, y and z
     unsigned texture;
   };
   struct Motion {
     Box box;
-    float by_x, by_y, by_z;  // to and fro by so much, meters
-    float phase;             // of the loop, radians
+    float by_x, by_y, by_z;  // amplitude [m]
+    float phase;             // in the loop [rad]
   };
   struct BoxHit {
     float depth;
@@ -73,17 +73,18 @@ class SyntheticWorld {
   std::vector<Motion> moving_;
 };
 
-/// Seen from one camera.
+/// The moving boxes as one camera sees them.
 class SyntheticWorld::MovingBoxes {
  public:
-  /// The nearer of `behind` and what the ray, which starts at this camera, meets of the moving boxes.
+  /// Returns the nearer one of @p behind and the point at which the ray, which starts at this camera, meets a
+  /// moving box.
   SceneHit hit(const SceneRay& ray, SceneHit behind) const;
 
  private:
   friend class SyntheticWorld;
   struct Seen {
     Box box;
-    float left, right, top, bottom;  // all its points have x/z and y/z within these
+    float left, right, top, bottom;  // bounds of x/z and y/z of all its points
   };
 
   const SyntheticWorld* world_ = nullptr;

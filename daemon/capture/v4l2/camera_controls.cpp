@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Setting controls by name.
 #include "daemon/capture/v4l2/camera_controls.h"
 
 #include <linux/v4l2-controls.h>
@@ -5,15 +7,15 @@
 #include <algorithm>
 #include <cstring>
 
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
-/// A control, the automatic mode that sets it too, and the mode's value for "off".
-struct Automatic {
+/// A control, the automatic mode that drives it, and the mode's value for "off".
+struct AutoMode {
   std::uint32_t value, mode;
   std::int32_t off;
 };
-constexpr Automatic kAutomatic[] = {
+constexpr AutoMode kAutoModes[] = {
     {V4L2_CID_EXPOSURE_ABSOLUTE, V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL},
     {V4L2_CID_EXPOSURE, V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL},
     {V4L2_CID_GAIN, V4L2_CID_AUTOGAIN, 0},
@@ -25,12 +27,12 @@ constexpr Automatic kAutomatic[] = {
     {V4L2_CID_BRIGHTNESS, V4L2_CID_AUTOBRIGHTNESS, 0},
 };
 
-/// The kernel has renamed some controls (in 5.18); both names are understood.
-struct Name {
+/// Linux 5.18 renamed some controls; both names are accepted.
+struct NamedControl {
   const char* name;
   std::uint32_t id;
 };
-constexpr Name kNames[] = {
+constexpr NamedControl kNames[] = {
     {"auto_exposure", V4L2_CID_EXPOSURE_AUTO},
     {"exposure_auto", V4L2_CID_EXPOSURE_AUTO},
     {"exposure_time_absolute", V4L2_CID_EXPOSURE_ABSOLUTE},
@@ -44,11 +46,11 @@ constexpr Name kNames[] = {
 };
 
 bool is_mode(std::uint32_t id) {
-  return std::any_of(std::begin(kAutomatic), std::end(kAutomatic),
-                     [&](const Automatic& automatic) { return automatic.mode == id; });
+  return std::any_of(std::begin(kAutoModes), std::end(kAutoModes),
+                     [&](const AutoMode& automatic) { return automatic.mode == id; });
 }
 
-void add_sentence(std::string& text, const std::string& sentence) {
+void append(std::string& text, const std::string& sentence) {
   if (sentence.empty()) return;
   if (!text.empty()) text += "; ";
   text += sentence;
@@ -66,14 +68,14 @@ const DeviceControl* CameraControls::find(const std::string& name) const {
   for (const DeviceControl& control : controls_) {
     if (control.name == name) return &control;
   }
-  for (const Name& known : kNames) {
+  for (const NamedControl& known : kNames) {
     if (known.name == name) return find(known.id);
   }
   return nullptr;
 }
 
-int CameraControls::switch_off_automatic(std::uint32_t id) {
-  for (const Automatic& automatic : kAutomatic) {
+int CameraControls::disable_auto_mode(std::uint32_t id) {
+  for (const AutoMode& automatic : kAutoModes) {
     if (automatic.value != id || find(automatic.mode) == nullptr) continue;
     if (const int error = device_.set_control(automatic.mode, automatic.off)) return error;
   }
@@ -83,56 +85,55 @@ int CameraControls::switch_off_automatic(std::uint32_t id) {
 void CameraControls::reset(std::uint32_t id) {
   const DeviceControl* control = find(id);
   if (control == nullptr) return;
-  // The value first: an automatic mode may overrule it.
-  device_.set_control(id, control->preset);
-  for (const Automatic& automatic : kAutomatic) {
+  // The value first: an active automatic mode would overrule it.
+  device_.set_control(id, control->default_value);
+  for (const AutoMode& automatic : kAutoModes) {
     const DeviceControl* mode = automatic.value == id ? find(automatic.mode) : nullptr;
-    if (mode != nullptr) device_.set_control(mode->id, mode->preset);
+    if (mode != nullptr) device_.set_control(mode->id, mode->default_value);
   }
 }
 
 std::string CameraControls::apply(const ControlValues& values) {
-  std::string complaints;
+  std::string problems;
   std::vector<std::uint32_t> named_modes;
-  // Modes first: a value that a mode overrules is lost.
+  // Modes first: a value that an active mode overrules is lost.
   for (const auto& [name, value] : values) {
     const DeviceControl* control = find(name);
     if (control == nullptr || !is_mode(control->id)) continue;
     named_modes.push_back(control->id);
-    add_sentence(complaints, apply_one(name, value));
+    append(problems, apply_one(name, value));
   }
   for (const auto& [name, value] : values) {
     const DeviceControl* control = find(name);
     if (control != nullptr && is_mode(control->id)) continue;
     if (control != nullptr) {
       const bool named =
-          std::any_of(std::begin(kAutomatic), std::end(kAutomatic), [&](const Automatic& automatic) {
+          std::any_of(std::begin(kAutoModes), std::end(kAutoModes), [&](const AutoMode& automatic) {
             return automatic.value == control->id &&
                    std::find(named_modes.begin(), named_modes.end(), automatic.mode) != named_modes.end();
           });
-      if (!named) switch_off_automatic(control->id);  // what comes of it shows when the value is read back
+      if (!named) disable_auto_mode(control->id);  // success shows when the value is read back
     }
-    add_sentence(complaints, apply_one(name, value));
+    append(problems, apply_one(name, value));
   }
-  return complaints;
+  return problems;
 }
 
 std::string CameraControls::apply_one(const std::string& name, std::int32_t value) {
   const DeviceControl* control = find(name);
-  if (control == nullptr) return "it has no control " + name;
+  if (control == nullptr) return "no control named " + name;
   const std::string range =
-      ", allowed are " + std::to_string(control->least) + " to " + std::to_string(control->most);
+      " (range " + std::to_string(control->minimum) + "…" + std::to_string(control->maximum) + ")";
+  const std::string wanted = std::to_string(value);
   if (const int error = device_.set_control(control->id, value)) {
-    return name + " could not be set to " + std::to_string(value) + " (" + std::strerror(error) + ")" +
-           range;  // NOLINT(concurrency-mt-unsafe)
+    return name + ": cannot be set to " + wanted + ": " + std::strerror(error) + range;
   }
-  std::int32_t got = 0;
-  if (const int error = device_.get_control(control->id, got)) {
-    return name + " was set to " + std::to_string(value) + " and cannot be read back (" +
-           std::strerror(error) + ")";  // NOLINT(concurrency-mt-unsafe)
+  std::int32_t actual = 0;
+  if (const int error = device_.get_control(control->id, actual)) {
+    return name + ": set to " + wanted + ", cannot be read back: " + std::strerror(error);
   }
-  if (got == value) return "";
-  return name + " was set to " + std::to_string(value) + " and is " + std::to_string(got) + range;
+  if (actual == value) return "";
+  return name + ": set to " + wanted + ", reads back " + std::to_string(actual) + range;
 }
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,4 +1,5 @@
-// A camera's controls by name.
+// SPDX-License-Identifier: BSD-3-Clause
+// The controls of a camera by name.
 #pragma once
 
 #include <optional>
@@ -8,28 +9,30 @@
 #include "daemon/capture/v4l2/video_device.h"
 #include "daemon/config/config.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 
-/// The controls of an opened camera.
+/// The controls of an open camera. Errors are errno values.
 class CameraControls {
  public:
+  /// Lists the controls. @p device must be open and outlive this.
   explicit CameraControls(VideoDevice& device) : device_(device), controls_(device.controls()) {}
 
-  /// Sets each control and reads it back. Automatic modes that would fight a value are switched off before it
-  /// is set, unless the values name the mode itself. What did not take is told in sentences, "; " between
-  /// them; empty if everything is as it should be.
+  /// Sets each control and reads it back. Switches off automatic modes that would overrule a value, unless @p
+  /// values names the mode itself. Returns a "; "-separated list of controls that could not be set; empty on
+  /// success.
   std::string apply(const ControlValues& values);
 
-  /// Gives a control and the automatic mode that sets it the values the camera has from its maker.
+  /// Sets a control and the automatic mode that drives it to their default values.
   void reset(std::uint32_t id);
 
-  /// The control with this V4L2 number; null if the camera has none.
+  /// Returns the control with this V4L2_CID_* number, null if the camera does not have it.
   const DeviceControl* find(std::uint32_t id) const;
-  /// The control with this name, as the kernel has it or had it in other versions; null if there is none.
+  /// Returns the control with this name in the present or an earlier kernel, null if the camera does not have
+  /// it.
   const DeviceControl* find(const std::string& name) const;
 
-  /// Switches off the automatic mode that sets this control by itself, if there is one. Errno values.
-  int switch_off_automatic(std::uint32_t id);
+  /// Switches off the automatic mode that drives this control, if there is one.
+  int disable_auto_mode(std::uint32_t id);
 
   const std::vector<DeviceControl>& all() const { return controls_; }
 
@@ -40,4 +43,4 @@ class CameraControls {
   std::vector<DeviceControl> controls_;
 };
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

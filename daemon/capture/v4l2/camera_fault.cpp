@@ -1,101 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Names of stages and reasons, and the sentences of failed calls.
 #include "daemon/capture/v4l2/camera_fault.h"
 
 #include <cerrno>
 #include <cstring>
 
-namespace stereod {
+#include "core/base/enum_names.h"
 
-std::string_view name_of(CameraState state) {
-  switch (state) {
-    case CameraState::kAbsent:
-      return "absent";
-    case CameraState::kOpening:
-      return "opening";
-    case CameraState::kStreaming:
-      return "streaming";
-    case CameraState::kStalled:
-      return "wedged";
-    case CameraState::kLost:
-      return "lost";
-  }
-  return "?";
-}
+namespace stereod::v4l2 {
 
-std::string_view name_of(SetupStage step) {
-  switch (step) {
-    case SetupStage::kFind:
-      return "finding it";
-    case SetupStage::kOpen:
-      return "opening it";
-    case SetupStage::kCapability:
-      return "asking what it is";
-    case SetupStage::kListFormats:
-      return "listing its formats";
-    case SetupStage::kListSizes:
-      return "listing its sizes";
-    case SetupStage::kSetFormat:
-      return "setting the format";
-    case SetupStage::kSetRate:
-      return "setting the rate";
-    case SetupStage::kRequestBuffers:
-      return "asking for buffers";
-    case SetupStage::kMapBuffer:
-      return "mapping a buffer";
-    case SetupStage::kQueue:
-      return "queueing a buffer";
-    case SetupStage::kStart:
-      return "starting the stream";
-    case SetupStage::kWait:
-      return "waiting for a frame";
-    case SetupStage::kDequeue:
-      return "fetching a frame";
-    case SetupStage::kGiveBack:
-      return "giving a buffer back";
-    case SetupStage::kStop:
-      return "stopping the stream";
-  }
-  return "?";
-}
+namespace {
 
-std::string_view name_of(CameraReason reason) {
-  switch (reason) {
-    case CameraReason::kNone:
-      return "none";
-    case CameraReason::kNotFound:
-      return "not found";
-    case CameraReason::kAmbiguous:
-      return "ambiguous";
-    case CameraReason::kSameCamera:
-      return "same camera";
-    case CameraReason::kNoCamera:
-      return "no camera";
-    case CameraReason::kNotPermitted:
-      return "not permitted";
-    case CameraReason::kBusy:
-      return "busy";
-    case CameraReason::kNoFormat:
-      return "no format";
-    case CameraReason::kOtherFormat:
-      return "other format";
-    case CameraReason::kNoMemory:
-      return "no memory";
-    case CameraReason::kNoBandwidth:
-      return "no bandwidth";
-    case CameraReason::kMoreBandwidth:
-      return "more bandwidth";
-    case CameraReason::kUnplugged:
-      return "unplugged";
-    case CameraReason::kDriverError:
-      return "driver error";
-    case CameraReason::kSilent:
-      return "silent";
-    case CameraReason::kOnlyDamaged:
-      return "only damaged frames";
-  }
-  return "?";
-}
+constexpr EnumNames<SetupStage, 15> kSetupStages{
+    {{SetupStage::kFind, "finding the camera"},
+     {SetupStage::kOpen, "opening the device"},
+     {SetupStage::kCapability, "querying the device's capabilities"},
+     {SetupStage::kListFormats, "listing the formats"},
+     {SetupStage::kListSizes, "listing the sizes"},
+     {SetupStage::kSetFormat, "setting the format"},
+     {SetupStage::kSetRate, "setting the rate"},
+     {SetupStage::kRequestBuffers, "requesting buffers"},
+     {SetupStage::kMapBuffer, "mapping a buffer"},
+     {SetupStage::kQueue, "queueing a buffer"},
+     {SetupStage::kStart, "starting the stream"},
+     {SetupStage::kWait, "waiting for a frame"},
+     {SetupStage::kDequeue, "dequeueing a frame"},
+     {SetupStage::kGiveBack, "giving a buffer back"},
+     {SetupStage::kStop, "stopping the stream"}}};
 
-CameraReason reason_of(SetupStage step, int error) {
+constexpr EnumNames<CameraReason, 16> kReasons{{{CameraReason::kNone, "none"},
+                                                {CameraReason::kNotFound, "not found"},
+                                                {CameraReason::kAmbiguous, "ambiguous"},
+                                                {CameraReason::kSameCamera, "same camera"},
+                                                {CameraReason::kNoCamera, "no camera"},
+                                                {CameraReason::kNotPermitted, "not permitted"},
+                                                {CameraReason::kBusy, "busy"},
+                                                {CameraReason::kNoFormat, "no format"},
+                                                {CameraReason::kOtherFormat, "other format"},
+                                                {CameraReason::kNoMemory, "no memory"},
+                                                {CameraReason::kNoBandwidth, "no bandwidth"},
+                                                {CameraReason::kMoreBandwidth, "more bandwidth"},
+                                                {CameraReason::kUnplugged, "unplugged"},
+                                                {CameraReason::kDriverError, "driver error"},
+                                                {CameraReason::kSilent, "silent"},
+                                                {CameraReason::kOnlyDamaged, "only damaged frames"}}};
+
+}  // namespace
+
+std::string_view name_of(SetupStage stage) { return find_name(kSetupStages, stage); }
+
+std::string_view name_of(CameraReason reason) { return find_name(kReasons, reason); }
+
+CameraReason reason_of(SetupStage stage, int error) {
   switch (error) {
     case ENODEV:
     case ENXIO:
@@ -108,24 +64,24 @@ CameraReason reason_of(SetupStage step, int error) {
       return CameraReason::kBusy;
     case ENOMEM:
       return CameraReason::kNoMemory;
-    case ENOSPC:  // usb_set_interface() and its kin, when the bus has no room left
-      return step >= SetupStage::kSetFormat ? CameraReason::kNoBandwidth : CameraReason::kDriverError;
+    case ENOSPC:  // from usb_set_interface() and others, when the bus is full
+      return stage >= SetupStage::kSetFormat ? CameraReason::kNoBandwidth : CameraReason::kDriverError;
     case ENOTTY:
-      return step == SetupStage::kCapability ? CameraReason::kNoCamera : CameraReason::kDriverError;
+      return stage == SetupStage::kCapability ? CameraReason::kNoCamera : CameraReason::kDriverError;
     case EINVAL:
-      if (step == SetupStage::kCapability) return CameraReason::kNoCamera;
-      return step == SetupStage::kSetFormat ? CameraReason::kNoFormat : CameraReason::kDriverError;
+      if (stage == SetupStage::kCapability) return CameraReason::kNoCamera;
+      return stage == SetupStage::kSetFormat ? CameraReason::kNoFormat : CameraReason::kDriverError;
     default:
       return CameraReason::kDriverError;
   }
 }
 
-CameraFault fault_of(SetupStage step, int error, const std::string& device) {
-  CameraFault fault{reason_of(step, error), step, error, ""};
-  const std::string where = device + ": " + std::string(name_of(step)) + ": ";
+CameraFault fault_of(SetupStage stage, int error, const std::string& device) {
+  CameraFault fault{reason_of(stage, error), stage, error, ""};
+  const std::string where = device + ": " + std::string(name_of(stage)) + ": ";
   switch (fault.reason) {
     case CameraReason::kUnplugged:
-      fault.sentence = device + " was unplugged; it is used again as soon as it is back";
+      fault.sentence = device + " was unplugged; plug it in again";
       break;
     case CameraReason::kNotPermitted:
       fault.sentence = where + "not permitted; add this user to the group that owns the device (video)";
@@ -137,12 +93,12 @@ CameraFault fault_of(SetupStage step, int error, const std::string& device) {
       fault.sentence = where + "the kernel has no memory for buffers";
       break;
     case CameraReason::kNoCamera:
-      fault.sentence = device + " is no camera; 'stereod --list-cameras' shows those there are";
+      fault.sentence = device + " is not a camera; 'stereod --list-cameras' lists the cameras";
       break;
     default:
-      fault.sentence = where + std::strerror(error);  // NOLINT(concurrency-mt-unsafe)
+      fault.sentence = where + std::strerror(error);
   }
   return fault;
 }
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

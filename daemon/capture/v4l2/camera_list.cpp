@@ -1,13 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What stereod --list-cameras prints.
 #include "daemon/capture/v4l2/camera_list.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 
 #include "core/base/text.h"
 #include "daemon/capture/v4l2/pixel_format.h"
 #include "daemon/capture/v4l2/video_device.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
 std::string row(const std::string& label, const std::string& text) {
@@ -16,13 +19,13 @@ std::string row(const std::string& label, const std::string& text) {
   return line + "  " + text + "\n";
 }
 
-std::string sizes_of(VideoDevice& device, std::uint32_t pixels) {
+std::string sizes_of(VideoDevice& device, std::uint32_t fourcc) {
   std::string text;
-  for (const Size size : device.sizes(pixels)) {
+  for (const Size size : device.sizes(fourcc)) {
     if (!text.empty()) text += ", ";
     text += to_string(size);
     std::string rates;
-    for (const double fps : device.rates(pixels, size).listed)
+    for (const double fps : device.rates(fourcc, size).listed)
       rates += (rates.empty() ? " at " : " ") + significant(fps, 4);
     text += rates;
   }
@@ -33,10 +36,10 @@ std::string formats_of(VideoDevice& device) {
   std::vector<std::uint32_t> formats;
   device.formats(formats);
   std::string text;
-  for (const std::uint32_t pixels : formats) {
-    const PixelFormat* format = find_pixel_format(pixels);
-    const std::string name = format != nullptr ? std::string(format->name) : fourcc_name(pixels) + " (auto)";
-    text += row(name, sizes_of(device, pixels));
+  for (const std::uint32_t fourcc : formats) {
+    const PixelFormat* format = find_pixel_format(fourcc);
+    const std::string name = format != nullptr ? std::string(format->name) : fourcc_name(fourcc) + " (auto)";
+    text += row(name, sizes_of(device, fourcc));
   }
   return text;
 }
@@ -48,10 +51,11 @@ std::string controls_of(VideoDevice& device) {
     const std::string now = device.get_control(control.id, value) == 0 ? std::to_string(value) : "?";
     std::string name = control.name;
     name.resize(std::max<std::size_t>(name.size(), 30), ' ');
-    text += row("", name + "  " + now + "  (" + std::to_string(control.least) + " to " +
-                        std::to_string(control.most) + ", by itself " + std::to_string(control.preset) + ")");
+    text += row("", name + "  " + now + "  (range " + std::to_string(control.minimum) + "…" +
+                        std::to_string(control.maximum) + ", default " +
+                        std::to_string(control.default_value) + ")");
   }
-  return text.empty() ? "" : row("controls", "what it is now, and what is allowed") + text;
+  return text.empty() ? "" : row("controls", "present value, range and default") + text;
 }
 
 }  // namespace
@@ -63,8 +67,7 @@ std::string list_cameras(VideoSystem& system) {
     VideoDevice device(system);
     DeviceCapability capability;
     if (const int error = device.open(node.node, false)) {
-      text +=
-          node.node + " cannot be opened: " + std::strerror(error) + "\n\n";  // NOLINT(concurrency-mt-unsafe)
+      text += node.node + " cannot be opened: " + std::strerror(error) + "\n\n";
       continue;
     }
     if (device.capability(capability) != 0 || !capability.captures || !capability.streams) continue;
@@ -79,4 +82,4 @@ std::string list_cameras(VideoSystem& system) {
   return text;
 }
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,29 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Buffers: mapped, queued, dequeued, lent, given back.
 #include "daemon/capture/v4l2/camera_stream.h"
 
 #include <algorithm>
 #include <cerrno>
 
-#include "core/base/text.h"
-
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
-// Numbers of buffers that a lease carries: the driver's from 0 on, then the decoded images.
-constexpr int kFirstPicture = 1000;
+// Buffer numbers of a lease: the driver's buffers from 0 on, the images of the pool from here on.
+constexpr int kFirstImage = 1000;
 
 }  // namespace
 
-std::string describe(const StreamInfo& info) {
-  if (info.pixels == nullptr) return {};
-  const std::string how = info.converted ? " (converted by libv4l2)" : "";
-  return fourcc_name(info.format.pixels) + " " + to_string(info.format.size) + " at " +
-         significant(info.fps, 4) + "/s" + how;
-}
-
-CameraStream::CameraStream(VideoSystem& system, Size size) : system_(system), device_(system) {
-  for (int i = 0; i < kImages; ++i) pictures_.emplace_back(size);
-  image_on_loan_.resize(kImages);
-}
+CameraStream::CameraStream(VideoSystem& system, Size size)
+    : system_(system), device_(system), images_(size) {}
 
 CameraStream::~CameraStream() {
   stop();
@@ -31,87 +22,10 @@ CameraStream::~CameraStream() {
 }
 
 std::optional<CameraFault> CameraStream::open(const StreamOptions& options) {
-  std::optional<CameraFault> fault = set_up(options);
+  std::optional<CameraFault> fault = set_up_device(device_, options, info_);
+  if (!fault) fault = map_buffers(options.node);
   if (fault) close();
   return fault;
-}
-
-std::optional<CameraFault> CameraStream::set_up(const StreamOptions& options) {
-  const std::string& node = options.node;
-  info_ = {};
-  if (const int error = device_.open(node, false)) return fault_of(SetupStage::kOpen, error, node);
-  if (const int error = device_.capability(info_.device))
-    return fault_of(SetupStage::kCapability, error, node);
-  if (!info_.device.captures || !info_.device.streams) {
-    return CameraFault{CameraReason::kNoCamera, SetupStage::kCapability, 0,
-                       node +
-                           " gives no images; a camera's other node holds its metadata only. "
-                           "'stereod --list-cameras' shows the right one"};
-  }
-  FormatRequest request;
-  if (auto fault = choose(options, request)) return fault;
-  if (request.convert) {
-    if (const int error = device_.open(node, true)) return fault_of(SetupStage::kOpen, error, node);
-  }
-  if (auto fault = agree_on_format(options, request)) return fault;
-  double got = 0;
-  if (const int error = device_.set_rate(request.fps, got))
-    return fault_of(SetupStage::kSetRate, error, node);
-  if (got > 0) info_.fps = got;
-  return map_buffers(node);
-}
-
-std::optional<CameraFault> CameraStream::choose(const StreamOptions& options, FormatRequest& request) {
-  std::vector<std::uint32_t> formats;
-  if (const int error = device_.formats(formats))
-    return fault_of(SetupStage::kListFormats, error, options.node);
-  std::vector<OfferedFormat> offers;
-  for (const std::uint32_t pixels : formats) {
-    bool offered = false;
-    if (const int error = device_.offers_size(pixels, options.size, offered))
-      return fault_of(SetupStage::kListSizes, error, options.node);
-    if (!offered) continue;
-    offers.push_back({pixels, device_.rates(pixels, options.size)});
-  }
-  const std::vector<FormatRequest> ladder = format_ladder(offers, options.format, options.fps);
-  if (ladder.empty()) return no_format(options, offers);
-  info_.fallback_levels = static_cast<int>(ladder.size());
-  request =
-      ladder[static_cast<std::size_t>(std::clamp(options.fallback_level, 0, info_.fallback_levels - 1))];
-  return std::nullopt;
-}
-
-CameraFault CameraStream::no_format(const StreamOptions& options,
-                                    const std::vector<OfferedFormat>& offers) const {
-  std::string sentence = options.node + " (" + info_.device.card + ") has no " + to_string(options.size) +
-                         (options.format == "auto" ? "" : " as " + options.format) + "; ";
-  if (offers.empty()) {
-    sentence += "'stereod --list-cameras' shows the sizes it has";
-  } else {
-    sentence += "at that size it offers ";
-    for (std::size_t i = 0; i < offers.size(); ++i) {
-      const PixelFormat* format = find_pixel_format(offers[i].pixels);
-      sentence += (i > 0 ? ", " : "") +
-                  (format != nullptr ? std::string(format->name) : fourcc_name(offers[i].pixels));
-    }
-  }
-  return {CameraReason::kNoFormat, SetupStage::kListSizes, 0, std::move(sentence)};
-}
-
-std::optional<CameraFault> CameraStream::agree_on_format(const StreamOptions& options,
-                                                         const FormatRequest& request) {
-  // What is asked for, should the answer be that the bus is full.
-  info_.format = {request.pixels, options.size, 0, 0};
-  info_.pixels = find_pixel_format(request.pixels);
-  info_.fps = request.fps;
-  info_.converted = request.convert;
-  if (const int error = device_.set_format(info_.format))
-    return fault_of(SetupStage::kSetFormat, error, options.node);
-  if (info_.format.pixels == request.pixels && info_.format.size == options.size) return std::nullopt;
-  return CameraFault{CameraReason::kOtherFormat, SetupStage::kSetFormat, 0,
-                     options.node + " was asked for " + fourcc_name(request.pixels) + " " +
-                         to_string(options.size) + " and gives " + fourcc_name(info_.format.pixels) + " " +
-                         to_string(info_.format.size) + "; set cameras.v4l2 to what it gives"};
 }
 
 std::optional<CameraFault> CameraStream::map_buffers(const std::string& node) {
@@ -123,10 +37,10 @@ std::optional<CameraFault> CameraStream::map_buffers(const std::string& node) {
     std::span<const std::uint8_t> memory;
     if (const int error = device_.map_buffer(i, memory)) return fault_of(SetupStage::kMapBuffer, error, node);
     buffers_.push_back(memory);
-    if (memory.size() >= least_bytes(*info_.pixels, info_.format)) continue;
+    if (memory.size() >= min_buffer_bytes(*info_.pixel_format, info_.format)) continue;
     return CameraFault{CameraReason::kOtherFormat, SetupStage::kMapBuffer, 0,
-                       node + ": its buffers of " + std::to_string(memory.size()) +
-                           " bytes are too small for " + describe(info_)};
+                       node + ": buffers of " + std::to_string(memory.size()) + " bytes are too small for " +
+                           describe(info_)};
   }
   const std::lock_guard lock(mutex_);
   buffer_on_loan_.assign(buffers_.size(), false);
@@ -137,16 +51,17 @@ std::optional<CameraFault> CameraStream::map_buffers(const std::string& node) {
 std::optional<CameraFault> CameraStream::start(std::int64_t exposure_ns) {
   const std::string& name = info_.device.card;
   buffers_seen_ = 0;
-  timestamps_.begin(info_.fps > 0 ? static_cast<std::int64_t>(1e9 / info_.fps) : 0, exposure_ns);
+  buffers_since_frame_ = 0;
+  timestamps_.reset(frame_time_ns(), exposure_ns);
   {
     const std::lock_guard lock(mutex_);
     for (std::uint32_t i = 0; i < buffers_.size(); ++i) {
-      if (buffer_on_loan_[i]) continue;  // queued when it is given back
+      if (buffer_on_loan_[i]) continue;  // give_back() queues it
       if (const int error = device_.queue(i)) return fault_of(SetupStage::kQueue, error, name);
     }
-    flowing_ = true;
+    started_ = true;
   }
-  // A camera may take a second to start; nobody who gives a buffer back waits for that.
+  // Outside the lock: a camera may take a second to start, and give_back() must not wait for it.
   if (const int error = device_.stream_on()) {
     stop();
     return fault_of(SetupStage::kStart, error, name);
@@ -154,28 +69,30 @@ std::optional<CameraFault> CameraStream::start(std::int64_t exposure_ns) {
   return std::nullopt;
 }
 
-FrameLease CameraStream::newest(int& error, SetupStage& step) noexcept {
+FrameLease CameraStream::newest(int& error, SetupStage& stage) noexcept {
   error = 0;
   FilledBuffer buffer;
   std::int64_t start_ns = 0;
-  if (!dequeue_newest(buffer, start_ns, error, step)) return {};
+  if (!dequeue_newest(buffer, start_ns, error, stage)) return {};
   Frame frame;
   frame.captured_ns = start_ns;
   frame.sequence = buffer.sequence;
-  if (info_.pixels->work == LumaWork::kNone) return lend_in_place(buffer, frame);
-  step = SetupStage::kQueue;
-  return lend_image(buffer, frame, error);
+  stage = SetupStage::kQueue;
+  const bool in_place = info_.pixel_format->work == LumaWork::kNone;
+  FrameLease lease = in_place ? lend_in_place(buffer, frame) : lend_decoded(buffer, frame, error);
+  if (lease) buffers_since_frame_ = 0;
+  return lease;
 }
 
-// Empties the driver's queue and keeps the newest buffer that may be a image; the others go back.
+// Empties the driver's queue and keeps the newest usable buffer; the others are requeued.
 bool CameraStream::dequeue_newest(FilledBuffer& newest, std::int64_t& start_ns, int& error,
-                                  SetupStage& step) noexcept {
-  const std::size_t least = least_bytes(*info_.pixels, info_.format);
-  bool have = false;
-  // A driver that always has one more must not keep this thread here.
+                                  SetupStage& stage) noexcept {
+  const std::size_t min_bytes = min_buffer_bytes(*info_.pixel_format, info_.format);
+  bool found = false;
+  // The limit is for a driver whose queue never becomes empty.
   for (std::size_t i = 0; i < 2 * buffers_.size(); ++i) {
     FilledBuffer buffer;
-    step = SetupStage::kDequeue;
+    stage = SetupStage::kDequeue;
     error = device_.dequeue(buffer);
     if (error == EAGAIN) {
       error = 0;
@@ -185,34 +102,35 @@ bool CameraStream::dequeue_newest(FilledBuffer& newest, std::int64_t& start_ns, 
     if (error != 0) break;
     count_missed(buffer.sequence);
     ++buffers_seen_;
+    ++buffers_since_frame_;
     FrameDrop drop{};
     std::int64_t this_start_ns = 0;
-    const bool good = is_complete(buffer, buffers_[buffer.index].size(), least, drop) &&
-                      timestamps_.start_of_exposure(buffer, system_.now_ns(), this_start_ns, drop);
-    step = SetupStage::kQueue;
-    if (!good) {
+    const bool usable = is_complete(buffer, buffers_[buffer.index].size(), min_bytes, drop) &&
+                        timestamps_.start_of_exposure(buffer, system_.now_ns(), this_start_ns, drop);
+    stage = SetupStage::kQueue;
+    if (!usable) {
       count(drop);
       requeue(buffer.index, error);
     } else {
-      if (have) {
+      if (found) {
         count(FrameDrop::kSuperseded);
         requeue(newest.index, error);
       }
       newest = buffer;
       start_ns = this_start_ns;
-      have = true;
+      found = true;
     }
     if (error != 0) break;
   }
   const std::lock_guard lock(mutex_);
   if (error == 0 && give_back_error_ != 0) {
     error = give_back_error_;
-    step = SetupStage::kGiveBack;
+    stage = SetupStage::kGiveBack;
   }
-  return have && error == 0;
+  return found && error == 0;
 }
 
-// A stream may begin with any number, and a driver that goes back has begun anew.
+// A stream may begin with any number. A number that goes back means that the driver started to count again.
 void CameraStream::count_missed(std::uint32_t sequence) noexcept {
   const auto ahead = static_cast<std::int32_t>(sequence - next_sequence_);
   if (buffers_seen_ > 0 && ahead > 0) frames_missed_ += ahead;
@@ -220,40 +138,31 @@ void CameraStream::count_missed(std::uint32_t sequence) noexcept {
 }
 
 FrameLease CameraStream::lend_in_place(const FilledBuffer& buffer, Frame frame) noexcept {
-  frame.luma = luma_in_place(*info_.pixels, info_.format, buffers_[buffer.index].data());
+  frame.luma = luma_in_place(*info_.pixel_format, info_.format, buffers_[buffer.index].data());
   const std::lock_guard lock(mutex_);
   buffer_on_loan_[buffer.index] = true;
   return {frame, *this, static_cast<int>(buffer.index)};
 }
 
-FrameLease CameraStream::lend_image(const FilledBuffer& buffer, Frame frame, int& error) noexcept {
-  const int place = free_image();
+FrameLease CameraStream::lend_decoded(const FilledBuffer& buffer, Frame frame, int& error) noexcept {
+  const int index = images_.find_free();
   FrameDrop drop = FrameDrop::kNoRoom;
-  bool good = place >= 0;
-  if (good) {
-    GrayImage& picture = pictures_[static_cast<std::size_t>(place)];
+  bool decoded = index >= 0;
+  if (decoded) {
+    GrayImage& image = images_.image(index);
     const std::span<const std::uint8_t> bytes = buffers_[buffer.index].first(buffer.bytes);
-    if (info_.pixels->work == LumaWork::kJpeg) {
-      good = jpeg_.decode(bytes, picture.view(), drop);
+    if (info_.pixel_format->work == LumaWork::kJpeg) {
+      decoded = jpeg_.decode(bytes, image.view(), drop);
     } else {
-      scale_y10(bytes.data(), row_stride(*info_.pixels, info_.format), picture.view());
+      scale_y10(bytes.data(), row_stride(*info_.pixel_format, info_.format), image.view());
     }
-    frame.luma = {picture.row(0), picture.size(), picture.view().stride(), 1};
+    frame.luma = {image.row(0), image.size(), image.view().stride(), 1};
   }
-  if (!good) count(drop);
+  if (!decoded) count(drop);
   requeue(buffer.index, error);
-  if (!good) return {};
-  const std::lock_guard lock(mutex_);
-  image_on_loan_[static_cast<std::size_t>(place)] = true;
-  return {frame, *this, kFirstPicture + place};
-}
-
-int CameraStream::free_image() noexcept {
-  const std::lock_guard lock(mutex_);
-  for (int i = 0; i < kImages; ++i) {
-    if (!image_on_loan_[static_cast<std::size_t>(i)]) return i;
-  }
-  return -1;
+  if (!decoded) return {};
+  images_.lend(index);
+  return {frame, *this, kFirstImage + index};
 }
 
 void CameraStream::requeue(std::uint32_t index, int& error) noexcept {
@@ -261,24 +170,21 @@ void CameraStream::requeue(std::uint32_t index, int& error) noexcept {
 }
 
 void CameraStream::give_back(int buffer) noexcept {
+  if (buffer >= kFirstImage) return images_.give_back(buffer - kFirstImage);
   const std::lock_guard lock(mutex_);
-  if (buffer >= kFirstPicture) {
-    image_on_loan_[static_cast<std::size_t>(buffer - kFirstPicture)] = false;
-    return;
-  }
   buffer_on_loan_[static_cast<std::size_t>(buffer)] = false;
-  if (!flowing_) return;  // start() queues it, or close() frees it
+  if (!started_) return;  // start() queues it, or close() unmaps it
   if (const int error = device_.queue(static_cast<std::uint32_t>(buffer))) give_back_error_ = error;
 }
 
 void CameraStream::stop() noexcept {
   {
     const std::lock_guard lock(mutex_);
-    if (!flowing_) return;
-    flowing_ = false;
+    if (!started_) return;
+    started_ = false;
     give_back_error_ = 0;
   }
-  device_.stream_off();  // a driver that cannot do that is closed next, which stops it
+  device_.stream_off();  // on failure the stream is closed next, which stops it too
 }
 
 bool CameraStream::on_loan() noexcept {
@@ -305,4 +211,4 @@ void CameraStream::count(FrameDrop drop) noexcept {
   if (is_damage(drop)) last_damage_ = drop;
 }
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,12 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The order of formats and rates.
 #include "daemon/capture/v4l2/format_fallbacks.h"
 
 #include <algorithm>
 
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
-constexpr double kLowestRate = 5;
-constexpr int kLowerRates = 2;  // after the wanted one
+constexpr double kMinRate = 5;          // [Hz]
+constexpr int kLowerRates = 2;          // after the configured one
+constexpr double kMaxRateRatio = 0.68;  // of a lower rate to the previous one
 
 bool reaches(const OfferedFormat& offer, double fps) {
   return offer.fastest() == 0 || offer.fastest() > 0.95 * fps;
@@ -17,7 +20,7 @@ const OfferedFormat* best(const std::vector<OfferedFormat>& offers, double fps, 
   for (const PixelFormat& format : pixel_formats()) {
     if ((format.work == LumaWork::kJpeg) != compressed) continue;
     for (const OfferedFormat& offer : offers) {
-      if (offer.pixels != format.pixels) continue;
+      if (offer.fourcc != format.fourcc) continue;
       const bool faster = chosen != nullptr && !reaches(*chosen, fps) && offer.fastest() > chosen->fastest();
       if (chosen == nullptr || faster) chosen = &offer;
     }
@@ -26,60 +29,60 @@ const OfferedFormat* best(const std::vector<OfferedFormat>& offers, double fps, 
 }
 
 FormatRequest request(const OfferedFormat& offer, double fps) {
-  return {offer.pixels, offer.fastest() > 0 ? std::min(fps, offer.fastest()) : fps, false};
+  return {offer.fourcc, offer.fastest() > 0 ? std::min(fps, offer.fastest()) : fps, false};
 }
 
-/// The next rate below `fps` that is worth a step; 0: none.
+/// Returns the next lower rate [Hz], 0 if there is none.
 double lower_rate(const OfferedRates& rates, double fps) {
   if (rates.listed.empty() || rates.range) {
     const double half = fps / 2;
     return rates.range && half < rates.listed.back() ? 0 : half;
   }
-  const auto lower =
-      std::find_if(rates.listed.begin(), rates.listed.end(), [&](double rate) { return rate < 0.68 * fps; });
+  const auto lower = std::find_if(rates.listed.begin(), rates.listed.end(),
+                                  [&](double rate) { return rate < kMaxRateRatio * fps; });
   return lower == rates.listed.end() ? 0 : *lower;
 }
 
-void add_lower_rates(std::vector<FormatRequest>& ladder, const OfferedFormat& offer) {
-  FormatRequest request = ladder.back();
+void add_lower_rates(std::vector<FormatRequest>& fallbacks, const OfferedFormat& offer) {
+  FormatRequest request = fallbacks.back();
   for (int i = 0; i < kLowerRates; ++i) {
     request.fps = lower_rate(offer.rates, request.fps);
-    if (request.fps < kLowestRate) return;
-    ladder.push_back(request);
+    if (request.fps < kMinRate) return;
+    fallbacks.push_back(request);
   }
 }
 
-std::vector<FormatRequest> automatic_ladder(const std::vector<OfferedFormat>& offers, double fps) {
+std::vector<FormatRequest> automatic_fallbacks(const std::vector<OfferedFormat>& offers, double fps) {
   const OfferedFormat* plain = best(offers, fps, false);
   const OfferedFormat* compressed = best(offers, fps, true);
   if (plain == nullptr && compressed == nullptr) return {};
-  std::vector<FormatRequest> ladder;
-  // A slow uncompressed format is worse than a compressed one at the full rate.
+  std::vector<FormatRequest> fallbacks;
+  // A compressed format at the full rate is better than an uncompressed one at a lower rate.
   const bool compressed_only = plain == nullptr || (!reaches(*plain, fps) && compressed != nullptr &&
                                                     compressed->fastest() > plain->fastest());
-  if (!compressed_only) ladder.push_back(request(*plain, fps));
-  if (compressed != nullptr) ladder.push_back(request(*compressed, fps));
-  add_lower_rates(ladder, compressed != nullptr ? *compressed : *plain);
-  return ladder;
+  if (!compressed_only) fallbacks.push_back(request(*plain, fps));
+  if (compressed != nullptr) fallbacks.push_back(request(*compressed, fps));
+  add_lower_rates(fallbacks, compressed != nullptr ? *compressed : *plain);
+  return fallbacks;
 }
 
 }  // namespace
 
-std::vector<FormatRequest> format_ladder(const std::vector<OfferedFormat>& offers, const std::string& name,
-                                         double fps) {
+std::vector<FormatRequest> format_fallbacks(const std::vector<OfferedFormat>& offers, const std::string& name,
+                                            double fps) {
   const bool automatic = name == "auto";
   for (const OfferedFormat& offer : offers) {
-    const PixelFormat* format = find_pixel_format(offer.pixels);
+    const PixelFormat* format = find_pixel_format(offer.fourcc);
     if (!automatic && format != nullptr && format->name == name) return {request(offer, fps)};
   }
   if (!automatic) return {};
-  std::vector<FormatRequest> ladder = automatic_ladder(offers, fps);
-  if (ladder.empty() && !offers.empty()) {
-    // Which of its formats is converted libv4l2 decides; the rates are those of the first.
-    ladder.push_back({fourcc('Y', 'U', '1', '2'), request(offers.front(), fps).fps, true});
-    add_lower_rates(ladder, offers.front());
+  std::vector<FormatRequest> fallbacks = automatic_fallbacks(offers, fps);
+  if (fallbacks.empty() && !offers.empty()) {
+    // libv4l2 decides which format it converts. The rates of the first one apply.
+    fallbacks.push_back({make_fourcc('Y', 'U', '1', '2'), request(offers.front(), fps).fps, true});
+    add_lower_rates(fallbacks, offers.front());
   }
-  return ladder;
+  return fallbacks;
 }
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

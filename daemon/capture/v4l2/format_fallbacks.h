@@ -1,4 +1,5 @@
-// Which format and rate a camera is asked for.
+// SPDX-License-Identifier: BSD-3-Clause
+// Which formats and rates a camera is asked for, in which order.
 #pragma once
 
 #include <cstdint>
@@ -7,28 +8,32 @@
 
 #include "daemon/capture/v4l2/pixel_format.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 
-/// A format that a camera offers at the wanted size.
+/// A format that a camera offers at the configured size.
 struct OfferedFormat {
-  std::uint32_t pixels = 0;
+  std::uint32_t fourcc = 0;
   OfferedRates rates;
-  /// 0: it does not say.
+  /// Returns the highest rate [Hz]; 0 if the driver lists none.
   double fastest() const { return rates.listed.empty() ? 0 : rates.listed.front(); }
 };
 
 struct FormatRequest {
-  std::uint32_t pixels = 0;  ///< what is asked of the driver, or of libv4l2
-  double fps = 0;
-  bool convert = false;  ///< through libv4l2
+  std::uint32_t fourcc = 0;  ///< requested of the driver, or of libv4l2
+  double fps = 0;            ///< [Hz]
+  bool convert = false;      ///< through libv4l2
 };
 
-/// Every request worth trying, the best first. `name`: auto or a format's name. For auto: the uncompressed
-/// format that puts the least on the bus, then MJPEG, then two lower rates that it offers, each by a third or
-/// more lower than the one before (a half and a quarter, where it offers any) and none below 5 a second; a
-/// format that reaches the rate comes before one that does not. What is not read here goes through libv4l2,
-/// after all others. For a name there is one request. Empty: nothing fits.
-std::vector<FormatRequest> format_ladder(const std::vector<OfferedFormat>& offers, const std::string& name,
-                                         double fps);
+/// Returns the requests for a camera, best first; the index is the fallback level. Empty if no offer fits.
+///
+/// @p name: a format's name gives that format only. "auto" gives, in this order:
+///   1. the uncompressed format with the lowest traffic on the bus,
+///   2. MJPEG,
+///   3. up to two lower rates that the camera offers, each at most 0.68 × the previous one (a half and a
+///      quarter if the camera offers any rate), not below 5 Hz.
+/// A format that reaches @p fps precedes a format that does not. If the daemon reads none of the formats,
+/// libv4l2 converts the first one to YU12, with the same lower rates.
+std::vector<FormatRequest> format_fallbacks(const std::vector<OfferedFormat>& offers, const std::string& name,
+                                            double fps);
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,12 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checks of buffers and timestamps.
 #include "daemon/capture/v4l2/frame_check.h"
 
 #include <limits>
 
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
-constexpr std::int64_t kOldest = 1'000'000'000;  // v4l2loopback hands out what lay in a buffer for hours
-constexpr std::int64_t kFuture = 20'000'000;     // uvcvideo's estimate may run ahead a little
+constexpr std::int64_t kMaxAge = 1'000'000'000;  // v4l2loopback hands out buffers that are hours old
+constexpr std::int64_t kMaxLead = 20'000'000;    // uvcvideo's estimate may lie slightly ahead
 
 }  // namespace
 
@@ -19,29 +21,30 @@ std::string_view name_of(FrameDrop drop) {
     case FrameDrop::kShort:
       return "too short";
     case FrameDrop::kNoJpeg:
-      return "no JPEG";
+      return "not a JPEG";
     case FrameDrop::kJpegSize:
       return "a JPEG of another size";
     case FrameDrop::kJpegDamaged:
       return "a damaged JPEG";
     case FrameDrop::kStale:
-      return "stamped far from now";
+      return "timestamped far from now";
     case FrameDrop::kTimestampBackwards:
-      return "stamped before the last";
+      return "timestamped before the previous frame";
     case FrameDrop::kSuperseded:
       return "superseded by a newer one";
     case FrameDrop::kNoRoom:
-      return "not needed: all images are on loan";
+      return "dropped because all images are on loan";
   }
   return "?";
 }
 
-bool is_complete(const FilledBuffer& buffer, std::size_t mapped, std::size_t least, FrameDrop& drop) {
+bool is_complete(const FilledBuffer& buffer, std::size_t mapped_bytes, std::size_t min_bytes,
+                 FrameDrop& drop) {
   if (buffer.error) {
     drop = FrameDrop::kDriverError;
   } else if (buffer.bytes == 0) {
     drop = FrameDrop::kEmpty;
-  } else if (buffer.bytes < least || buffer.bytes > mapped || mapped < least) {
+  } else if (buffer.bytes < min_bytes || buffer.bytes > mapped_bytes || mapped_bytes < min_bytes) {
     drop = FrameDrop::kShort;
   } else {
     return true;
@@ -49,7 +52,7 @@ bool is_complete(const FilledBuffer& buffer, std::size_t mapped, std::size_t lea
   return false;
 }
 
-void TimestampFilter::begin(std::int64_t frame_ns, std::int64_t exposure_ns) noexcept {
+void TimestampFilter::reset(std::int64_t frame_ns, std::int64_t exposure_ns) noexcept {
   frame_ns_ = frame_ns;
   exposure_ns_ = exposure_ns;
   last_ns_ = std::numeric_limits<std::int64_t>::min();
@@ -58,7 +61,7 @@ void TimestampFilter::begin(std::int64_t frame_ns, std::int64_t exposure_ns) noe
 
 bool TimestampFilter::start_of_exposure(const FilledBuffer& buffer, std::int64_t now_ns,
                                         std::int64_t& start_ns, FrameDrop& drop) noexcept {
-  const bool near = buffer.timestamp_ns >= now_ns - kOldest && buffer.timestamp_ns <= now_ns + kFuture;
+  const bool near = buffer.timestamp_ns >= now_ns - kMaxAge && buffer.timestamp_ns <= now_ns + kMaxLead;
   if (!near && buffer.timestamp_monotonic) {
     drop = FrameDrop::kStale;
     return false;
@@ -74,4 +77,4 @@ bool TimestampFilter::start_of_exposure(const FilledBuffer& buffer, std::int64_t
   return true;
 }
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

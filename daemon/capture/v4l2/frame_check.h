@@ -1,4 +1,5 @@
-// Which buffers are images.
+// SPDX-License-Identifier: BSD-3-Clause
+// Decides which buffers of the driver become frames.
 #pragma once
 
 #include <array>
@@ -8,54 +9,61 @@
 
 #include "daemon/capture/v4l2/pixel_format.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 
 /// Why a buffer of the driver did not become a frame.
 enum class FrameDrop {
-  kDriverError,         ///< the driver marked it as damaged
-  kEmpty,               ///< nothing in it
-  kShort,               ///< fewer bytes than the image needs
-  kNoJpeg,              ///< does not begin like a JPEG
-  kJpegSize,            ///< a JPEG of another size than agreed
-  kJpegDamaged,         ///< truncated, or rubbish inside
-  kStale,               ///< its stamp is far from now
-  kTimestampBackwards,  ///< stamped earlier than the frame before it
-  kSuperseded,          ///< a newer frame was there already
-  kNoRoom,              ///< every decoded image is still on loan
+  kDriverError,         ///< marked as damaged by the driver
+  kEmpty,               ///< contains 0 bytes
+  kShort,               ///< contains fewer bytes than the image needs
+  kNoJpeg,              ///< does not begin with a JPEG header
+  kJpegSize,            ///< JPEG of another size than negotiated
+  kJpegDamaged,         ///< JPEG is truncated or corrupt
+  kStale,               ///< timestamp far from now
+  kTimestampBackwards,  ///< timestamp before that of the previous frame
+  kSuperseded,          ///< a newer frame was already there
+  kNoRoom,              ///< all images for decoding are on loan
 };
 inline constexpr std::size_t kFrameDrops = 10;
+/// Returns the reason for people: "too short".
 std::string_view name_of(FrameDrop drop);
-/// False for a good frame that was not needed.
+/// Returns false for reasons that are no fault of the frame.
 constexpr bool is_damage(FrameDrop drop) {
   return drop != FrameDrop::kSuperseded && drop != FrameDrop::kNoRoom;
 }
 
-/// How many buffers were dropped since the start, by reason.
+/// Buffers dropped since the start, by reason.
 struct DropCounts {
   std::array<std::int64_t, kFrameDrops> of{};
   std::int64_t& operator[](FrameDrop drop) { return of[static_cast<std::size_t>(drop)]; }
   std::int64_t operator[](FrameDrop drop) const { return of[static_cast<std::size_t>(drop)]; }
 };
 
-/// Judges a buffer by what the driver says of it, before its bytes are looked at. `mapped`: the buffer's
-/// length. True if it may be a image; else `drop` says why not.
-bool is_complete(const FilledBuffer& buffer, std::size_t mapped, std::size_t least, FrameDrop& drop);
+/// Checks what the driver reports about a buffer, without looking at its content. Returns false and sets @p
+/// drop if the buffer cannot hold an image. @p mapped_bytes: the mapped length. @p min_bytes: see
+/// min_buffer_bytes().
+bool is_complete(const FilledBuffer& buffer, std::size_t mapped_bytes, std::size_t min_bytes,
+                 FrameDrop& drop);
 
-/// Turns the drivers' stamps into the start of exposure on CLOCK_MONOTONIC, and refuses stamps that cannot
-/// be.
+/// Converts the driver's timestamps to the start of exposure on CLOCK_MONOTONIC and refuses impossible ones.
 class TimestampFilter {
  public:
-  /// `frame_ns`: the time of one frame. `exposure_ns`: 0 if the camera does not say.
-  void begin(std::int64_t frame_ns, std::int64_t exposure_ns) noexcept;
+  /// Prepares for a new stream. @p frame_ns: frame period [ns]. @p exposure_ns: exposure time [ns], 0 =
+  /// unknown.
+  void reset(std::int64_t frame_ns, std::int64_t exposure_ns) noexcept;
 
-  /// When the exposure began. A stamp of the end of the frame is put back by one frame, the time a rolling
-  /// shutter takes to read out, and the exposure. Without a known clock a stamp counts only if it is close to
-  /// now; else now is taken, the time the frame came. False if the frame must be dropped.
+  /// Computes when the exposure of a buffer began. Returns false and sets @p drop if the frame must be
+  /// dropped.
+  ///
+  /// A timestamp of the start of exposure is used as it is. A timestamp of the end of the frame is moved back
+  /// by one frame period (the readout time of a rolling shutter) and the exposure time. A timestamp of an
+  /// unknown clock is used if it lies within 1 s before and 20 ms after @p now_ns; otherwise @p now_ns, the
+  /// time of arrival, replaces it.
   bool start_of_exposure(const FilledBuffer& buffer, std::int64_t now_ns, std::int64_t& start_ns,
                          FrameDrop& drop) noexcept;
 
  private:
-  // A clock that was set back for good must not stop a camera for good.
+  // After this many frames in a row, a clock that was set back is accepted.
   static constexpr int kMaxBackwards = 5;
 
   std::int64_t frame_ns_ = 0;
@@ -64,4 +72,4 @@ class TimestampFilter {
   int backwards_ = 0;
 };
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,4 +1,5 @@
-// The only file that calls the kernel about cameras.
+// SPDX-License-Identifier: BSD-3-Clause
+// Calls the kernel. No other file of the daemon makes system calls on video devices.
 #include <fcntl.h>
 #include <libv4l2.h>
 #include <poll.h>
@@ -22,22 +23,23 @@
 
 #include "daemon/capture/v4l2/video_system.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kWatchedFolders[] = {"/dev", "/dev/v4l", "/dev/v4l/by-path", "/dev/v4l/by-id"};
-constexpr const char* kLinkFolders[] = {"/dev/v4l/by-path", "/dev/v4l/by-id"};
+constexpr const char* kWatchedDirectories[] = {"/dev", "/dev/v4l", "/dev/v4l/by-path", "/dev/v4l/by-id"};
+constexpr const char* kLinkDirectories[] = {"/dev/v4l/by-path", "/dev/v4l/by-id"};
 
-/// Device changes come from inotify: udev makes and removes the nodes and links there, and gives permissions.
+/// Watches for devices with inotify: udev creates and removes nodes and links in these directories and sets
+/// their permissions.
 class KernelWaiter final : public Waiter {
  public:
   KernelWaiter() : inotify_(inotify_init1(IN_NONBLOCK | IN_CLOEXEC)), wake_(eventfd(0, EFD_CLOEXEC)) {
     if (inotify_ < 0 || wake_ < 0) {
       const int error = errno;
       close_all();
-      throw std::system_error(error, std::generic_category(), "waiting for cameras cannot be set up");
+      throw std::system_error(error, std::generic_category(), "cannot watch /dev for cameras");
     }
     watch();
   }
@@ -46,7 +48,7 @@ class KernelWaiter final : public Waiter {
   KernelWaiter& operator=(const KernelWaiter&) = delete;
 
   WaitResult wait(int descriptor, std::chrono::milliseconds timeout) noexcept override {
-    // While a camera streams, only its own descriptor counts.
+    // While a camera streams, only its own descriptor is polled.
     std::array<pollfd, 2> polled{{{wake_, POLLIN, 0}, {descriptor >= 0 ? descriptor : inotify_, POLLIN, 0}}};
     const int ready = poll(polled.data(), polled.size(), static_cast<int>(timeout.count()));
     WaitResult result;
@@ -61,20 +63,21 @@ class KernelWaiter final : public Waiter {
   }
 
   void wake() noexcept override {
-    // Never read, so that it stays readable.
+    // The counter is never read, so that every later wait ends at once.
     const std::uint64_t one = 1;
-    if (write(wake_, &one, sizeof one) < 0) return;  // it is readable already
+    if (write(wake_, &one, sizeof one) < 0) return;  // the counter is full and so already readable
   }
 
  private:
-  // The directories below /dev/v4l come and go with the cameras. Watching one again changes nothing.
+  // The directories in /dev/v4l are created and removed with the cameras. Watching one a second time has no
+  // effect.
   void watch() noexcept {
-    for (const char* directory : kWatchedFolders) {
+    for (const char* directory : kWatchedDirectories) {
       inotify_add_watch(inotify_, directory, IN_CREATE | IN_DELETE | IN_MOVED_TO | IN_ATTRIB | IN_ONLYDIR);
     }
   }
 
-  // Empties the queue of events; true if one of them may be about a camera. /dev also has many others.
+  // Empties the queue of events and returns true if one of them may concern a camera.
   bool video_device_changed() noexcept {
     alignas(inotify_event) std::array<char, 4096> buffer;
     bool changed = false;
@@ -109,7 +112,7 @@ std::string first_line(const fs::path& file) {
   return line;
 }
 
-/// The number of /dev/videoN; -1 for another name.
+/// Returns N of /dev/videoN, -1 for another name.
 int node_number(const std::string& name) {
   constexpr std::string_view kStem = "video";
   int number = -1;
@@ -133,7 +136,7 @@ class KernelVideoSystem final : public VideoSystem {
           fs::canonical("/sys/class/video4linux/" + entry.path().filename().string() + "/device", error);
       if (!error) node.serial = first_line(interface.parent_path() / "serial");
     }
-    for (const char* directory : kLinkFolders) {
+    for (const char* directory : kLinkDirectories) {
       for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
         const auto node = found.find(node_number(fs::path(resolve(entry.path())).filename()));
         if (node != found.end()) node->second.links.push_back(entry.path());
@@ -142,7 +145,7 @@ class KernelVideoSystem final : public VideoSystem {
     std::vector<VideoNode> sorted;
     for (auto& [number, node] : found) {
       std::sort(node.links.begin(), node.links.end(), [](const std::string& a, const std::string& b) {
-        // by-path before by-id: it tells two cameras of the same model without serial number apart.
+        // by-path before by-id: it distinguishes two cameras of one model without serial numbers.
         return std::tuple(a.find("by-path") == a.npos, a) < std::tuple(b.find("by-path") == b.npos, b);
       });
       sorted.push_back(std::move(node));
@@ -161,8 +164,8 @@ class KernelVideoSystem final : public VideoSystem {
     return error ? std::string() : node.string();
   }
 
-  std::string camera_of(const std::string& node) override {
-    // The USB interface that controls the function: every node of it hangs on that one.
+  std::string camera_id(const std::string& node) override {
+    // The USB interface that controls the function is the parent of all its nodes.
     const fs::path device = "/sys/class/video4linux/" + fs::path(node).filename().string() + "/device";
     std::error_code error;
     const fs::path subsystem = fs::canonical(device / "subsystem", error);
@@ -206,7 +209,7 @@ class KernelVideoSystem final : public VideoSystem {
   }
 
   void* map(int descriptor, std::size_t length, std::int64_t offset, int& error) noexcept override {
-    // libv4l2 writes what it converted into its mappings, and wants to be asked for both rights.
+    // libv4l2 writes converted images into its mappings and requires both access rights.
     void* memory = is_converted(descriptor)
                        ? v4l2_mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, offset)
                        : mmap(nullptr, length, PROT_READ, MAP_SHARED, descriptor, offset);
@@ -215,7 +218,7 @@ class KernelVideoSystem final : public VideoSystem {
     return nullptr;
   }
 
-  // libv4l2 knows its own mappings and passes the others on.
+  // libv4l2 recognizes its own mappings and passes the others on to the kernel.
   void unmap(void* memory, std::size_t length) noexcept override { v4l2_munmap(memory, length); }
 
   std::int64_t now_ns() noexcept override {
@@ -232,7 +235,7 @@ class KernelVideoSystem final : public VideoSystem {
   }
 
  private:
-  // Which descriptors go through libv4l2: small numbers; open() refuses one past the end.
+  // The descriptors that go through libv4l2. open() refuses a descriptor beyond the end.
   bool is_converted(int descriptor) const noexcept {
     const auto place = static_cast<std::size_t>(descriptor);
     return place < converted_.size() && converted_[place];
@@ -245,4 +248,4 @@ class KernelVideoSystem final : public VideoSystem {
 
 std::unique_ptr<VideoSystem> make_kernel_video_system() { return std::make_unique<KernelVideoSystem>(); }
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// JPEG by libjpeg, and 10-bit luma.
 #include "daemon/capture/v4l2/luma_decoder.h"
 
 // jpeglib.h wants FILE and size_t before it.
@@ -11,11 +13,12 @@
 #include <new>
 #include <utility>
 
-namespace stereod {
+namespace stereod::v4l2 {
 
-// libjpeg reports an error by a function that must not return. It leaves by longjmp and not by an exception:
-// on some machines libjpeg is built without the tables that an exception needs to pass through C. Between
-// setjmp and longjmp lie only libjpeg's functions and variables without destructors, so nothing is left out.
+// libjpeg reports an error by calling a function that must not return. That function uses longjmp instead of
+// an exception: on some architectures libjpeg is built without the unwind tables that an exception needs to
+// pass through C. Between setjmp and longjmp there are only libjpeg's functions and variables without
+// destructors.
 struct JpegLumaDecoder::Libjpeg {
   jpeg_decompress_struct info{};
   jpeg_error_mgr errors{};
@@ -37,16 +40,17 @@ JpegLumaDecoder::Libjpeg& self(j_common_ptr info) {
 
 [[noreturn]] void leave(j_common_ptr info) { std::longjmp(self(info).failed, 1); }
 
-// More than this left over at a marker is not padding: something was put in, and what was decoded is wrong.
-constexpr int kMinBytes = 100;
+// More extraneous bytes than this before a marker are not padding: the decoded image is wrong.
+constexpr int kMaxPadding = 100;
 
-// What libjpeg warns of though the image is whole. Some webcams put a few bytes too many before the end of
-// a image, or before a restart marker in it: all that was wanted had been decoded by then, for data that
-// end too soon, and markers that are missing, have warnings of their own.
+// Returns true for warnings of libjpeg about images that are whole. Some webcams send a few extraneous bytes
+// before the end of an image or before a restart marker. Everything has been decoded by then: missing data
+// and missing markers have warnings of their own.
 bool is_harmless(const jpeg_error_mgr& errors) {
-  if (errors.msg_code == JWRN_JFIF_MAJOR) return true;  // a number in the header that nothing depends on
+  if (errors.msg_code == JWRN_JFIF_MAJOR)
+    return true;  // a version number in the header; no decoding depends on it
   const int bytes = errors.msg_parm.i[0], marker = errors.msg_parm.i[1];
-  return errors.msg_code == JWRN_EXTRANEOUS_DATA && bytes <= kMinBytes &&
+  return errors.msg_code == JWRN_EXTRANEOUS_DATA && bytes <= kMaxPadding &&
          (marker == JPEG_EOI || (marker >= JPEG_RST0 && marker <= JPEG_RST0 + 7));
 }
 
@@ -58,8 +62,7 @@ void print_nothing(j_common_ptr) {}
 
 bool is_luma_first(J_COLOR_SPACE space) { return space == JCS_YCbCr || space == JCS_GRAYSCALE; }
 
-// Reads the header. A camera's image has one scan; more could keep this thread busy for as long as they
-// like.
+// Reads the header. A camera's image has one scan; the time to decode several is unbounded.
 bool read_header(JpegLumaDecoder::Libjpeg& jpeg, std::span<const std::uint8_t> bytes) noexcept {
   if (setjmp(jpeg.failed) != 0) return false;
   jpeg_mem_src(&jpeg.info, bytes.data(), static_cast<unsigned long>(bytes.size()));
@@ -70,7 +73,7 @@ bool read_header(JpegLumaDecoder::Libjpeg& jpeg, std::span<const std::uint8_t> b
 // Stops at the first damage.
 bool read_luma(JpegLumaDecoder::Libjpeg& jpeg, ImageView<std::uint8_t> luma) noexcept {
   if (setjmp(jpeg.failed) != 0) return false;
-  jpeg.info.out_color_space = JCS_GRAYSCALE;  // so the chroma is not even transformed
+  jpeg.info.out_color_space = JCS_GRAYSCALE;  // so that the chroma is not decoded
   jpeg_start_decompress(&jpeg.info);
   constexpr JDIMENSION kRows = 8;
   const auto height = static_cast<JDIMENSION>(luma.height());
@@ -80,7 +83,7 @@ bool read_luma(JpegLumaDecoder::Libjpeg& jpeg, ImageView<std::uint8_t> luma) noe
     for (JDIMENSION i = 0; i < count; ++i) rows[i] = luma.row(static_cast<int>(first + i));
     jpeg_read_scanlines(&jpeg.info, rows, count);
   }
-  if (!jpeg.damaged) jpeg_finish_decompress(&jpeg.info);  // looks for the end of the file too
+  if (!jpeg.damaged) jpeg_finish_decompress(&jpeg.info);  // checks for the end marker
   return !jpeg.damaged;
 }
 
@@ -92,7 +95,7 @@ JpegLumaDecoder::Libjpeg::Libjpeg() noexcept {
   errors.error_exit = leave;
   errors.emit_message = take_message;
   errors.output_message = print_nothing;
-  if (setjmp(failed) != 0) return;  // no memory
+  if (setjmp(failed) != 0) return;  // out of memory
   jpeg_create_decompress(&info);
   created = true;
 }
@@ -103,9 +106,9 @@ JpegLumaDecoder::JpegLumaDecoder() : jpeg_(std::make_unique<Libjpeg>()) {
 
 JpegLumaDecoder::~JpegLumaDecoder() = default;
 
-// libjpeg keeps the Huffman tables it has seen, so a damaged image could spoil all those after it that
-// bring none of their own.
-void JpegLumaDecoder::start_anew() noexcept {
+// libjpeg keeps Huffman tables from image to image: tables of a damaged image would spoil later images
+// without tables.
+void JpegLumaDecoder::reset() noexcept {
   std::unique_ptr<Libjpeg> fresh(new (std::nothrow) Libjpeg);
   if (fresh != nullptr && fresh->created) {
     jpeg_ = std::move(fresh);
@@ -123,7 +126,7 @@ bool JpegLumaDecoder::decode(std::span<const std::uint8_t> jpeg, ImageView<std::
   jpeg_->damaged = false;
   if (!read_header(*jpeg_, jpeg)) {
     drop = FrameDrop::kJpegDamaged;
-    start_anew();
+    reset();
     return false;
   }
   const auto width = static_cast<JDIMENSION>(luma.width()), height = static_cast<JDIMENSION>(luma.height());
@@ -134,7 +137,7 @@ bool JpegLumaDecoder::decode(std::span<const std::uint8_t> jpeg, ImageView<std::
   }
   if (!read_luma(*jpeg_, luma)) {
     drop = FrameDrop::kJpegDamaged;
-    start_anew();
+    reset();
     return false;
   }
   return true;
@@ -151,4 +154,4 @@ void scale_y10(const std::uint8_t* words, std::size_t stride, ImageView<std::uin
   }
 }
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,29 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of pixel formats.
 #include "daemon/capture/v4l2/pixel_format.h"
 
 #include <algorithm>
 #include <array>
 
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
-// Of 16-bit words with 16 significant bits, little-endian, the high byte is the luma.
+// Y16: of little-endian words with 16 significant bits, the high byte is the luma.
 constexpr std::array<PixelFormat, 9> kFormats{{
-    {fourcc('G', 'R', 'E', 'Y'), "gray", LumaWork::kNone, 1, 0, 1},
-    {fourcc('N', 'V', '1', '2'), "nv12", LumaWork::kNone, 1, 0, 1.5},
-    {fourcc('Y', 'U', '1', '2'), "yu12", LumaWork::kNone, 1, 0, 1.5},
-    {fourcc('Y', 'U', 'Y', 'V'), "yuyv", LumaWork::kNone, 2, 0, 2},
-    {fourcc('U', 'Y', 'V', 'Y'), "uyvy", LumaWork::kNone, 2, 1, 2},
-    {fourcc('Y', '1', '0', ' '), "y10", LumaWork::kScale, 2, 0, 2},
-    {fourcc('Y', '1', '6', ' '), "y16", LumaWork::kNone, 2, 1, 2},
-    {fourcc('M', 'J', 'P', 'G'), "mjpeg", LumaWork::kJpeg, 0, 0, 0},
-    {fourcc('J', 'P', 'E', 'G'), "mjpeg", LumaWork::kJpeg, 0, 0, 0},
+    {make_fourcc('G', 'R', 'E', 'Y'), "gray", LumaWork::kNone, 1, 0, 1},
+    {make_fourcc('N', 'V', '1', '2'), "nv12", LumaWork::kNone, 1, 0, 1.5},
+    {make_fourcc('Y', 'U', '1', '2'), "yu12", LumaWork::kNone, 1, 0, 1.5},
+    {make_fourcc('Y', 'U', 'Y', 'V'), "yuyv", LumaWork::kNone, 2, 0, 2},
+    {make_fourcc('U', 'Y', 'V', 'Y'), "uyvy", LumaWork::kNone, 2, 1, 2},
+    {make_fourcc('Y', '1', '0', ' '), "y10", LumaWork::kScale, 2, 0, 2},
+    {make_fourcc('Y', '1', '6', ' '), "y16", LumaWork::kNone, 2, 1, 2},
+    {make_fourcc('M', 'J', 'P', 'G'), "mjpeg", LumaWork::kJpeg, 0, 0, 0},
+    {make_fourcc('J', 'P', 'E', 'G'), "mjpeg", LumaWork::kJpeg, 0, 0, 0},
 }};
 
 }  // namespace
 
-const PixelFormat* find_pixel_format(std::uint32_t pixels) {
+const PixelFormat* find_pixel_format(std::uint32_t fourcc) {
   const auto* found = std::find_if(kFormats.begin(), kFormats.end(),
-                                   [&](const PixelFormat& format) { return format.pixels == pixels; });
+                                   [&](const PixelFormat& format) { return format.fourcc == fourcc; });
   return found == kFormats.end() ? nullptr : found;
 }
 
@@ -36,12 +38,12 @@ const PixelFormat* find_pixel_format(std::string_view name) {
 std::span<const PixelFormat> pixel_formats() { return kFormats; }
 
 std::size_t row_stride(const PixelFormat& format, const DeviceFormat& device) {
-  const auto least =
+  const auto minimum =
       static_cast<std::size_t>(device.size.width) * static_cast<std::size_t>(format.bytes_per_pixel);
-  return std::max<std::size_t>(device.bytes_per_line, least);
+  return std::max<std::size_t>(device.bytes_per_line, minimum);
 }
 
-std::size_t least_bytes(const PixelFormat& format, const DeviceFormat& device) {
+std::size_t min_buffer_bytes(const PixelFormat& format, const DeviceFormat& device) {
   if (format.work == LumaWork::kJpeg) return 0;
   const auto width = static_cast<std::size_t>(device.size.width),
              height = static_cast<std::size_t>(device.size.height);
@@ -54,4 +56,4 @@ LumaView luma_in_place(const PixelFormat& format, const DeviceFormat& device, co
           format.bytes_per_pixel};
 }
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,4 +1,5 @@
-// Where the brightness lies in each pixel format that is read.
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the luma lies in each pixel format that the daemon reads.
 #pragma once
 
 #include <cstddef>
@@ -6,41 +7,41 @@
 #include <span>
 #include <string_view>
 
-#include "daemon/capture/frame_source.h"
-#include "daemon/capture/v4l2/video_device.h"
+#include "core/base/luma_view.h"
+#include "daemon/capture/v4l2/video_types.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 
-/// What has to be done to a buffer before it is 8-bit luma.
+/// How a buffer becomes 8-bit luma.
 enum class LumaWork {
-  kNone,   ///< it lies in the buffer, to be read in place
+  kNone,   ///< the luma is read in place
   kScale,  ///< 16-bit words with 10 significant bits
   kJpeg,   ///< each buffer is a JPEG file
 };
 
 struct PixelFormat {
-  std::uint32_t pixels = 0;
-  std::string_view name;  ///< in the configuration
+  std::uint32_t fourcc = 0;
+  std::string_view name;  ///< as in the configuration
   LumaWork work = LumaWork::kNone;
-  int bytes_per_pixel = 1;  ///< in the rows that hold the luma
-  int luma_offset = 0;      ///< of the first pixel's luma in its row
-  double traffic = 1;       ///< bytes a pixel on the bus; 0: compressed
+  int bytes_per_pixel = 1;  ///< [bytes] in the rows that hold the luma
+  int luma_offset = 0;      ///< [bytes] of the first pixel's luma in its row
+  double traffic = 1;       ///< [bytes per pixel] on the bus; 0 = compressed
 };
 
-/// The format with this fourcc, or with this name (gray, nv12, yu12, yuyv, uyvy, y10, y16, mjpeg); null if it
-/// is not read here.
-const PixelFormat* find_pixel_format(std::uint32_t pixels);
+/// Returns the format with this fourcc or this name (gray, nv12, yu12, yuyv, uyvy, y10, y16, mjpeg), null if
+/// the daemon does not read it.
+const PixelFormat* find_pixel_format(std::uint32_t fourcc);
 const PixelFormat* find_pixel_format(std::string_view name);
-/// All of them, what puts the least on the bus first, compressed formats last.
+/// Returns all formats, sorted by traffic on the bus; compressed formats last.
 std::span<const PixelFormat> pixel_formats();
 
-/// Bytes from row to row. Some drivers say 0 and mean no padding.
+/// Returns the distance between rows [bytes]. A driver that reports 0 bytes per line pads nothing.
 std::size_t row_stride(const PixelFormat& format, const DeviceFormat& device);
 
-/// The least number of bytes in a buffer that has the whole luma; 0 for JPEG, whose length varies.
-std::size_t least_bytes(const PixelFormat& format, const DeviceFormat& device);
+/// Returns the minimum size of a buffer that holds the whole luma [bytes]; 0 for JPEG, whose size varies.
+std::size_t min_buffer_bytes(const PixelFormat& format, const DeviceFormat& device);
 
-/// The luma of a buffer of `least_bytes`, for LumaWork::kNone.
+/// Returns the luma of a buffer of at least min_buffer_bytes(), for LumaWork::kNone.
 LumaView luma_in_place(const PixelFormat& format, const DeviceFormat& device, const std::uint8_t* buffer);
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,31 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lifecycle of one camera: closed, streaming, closing.
 #include "daemon/capture/v4l2/v4l2_camera.h"
 
 #include <algorithm>
-#include <bit>
 #include <cerrno>
 #include <cstdio>
-#include <exception>
 #include <utility>
 
-#include "daemon/capture/v4l2/camera_finder.h"
-
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kRetry = kSecond / 2;  // after a failure
-constexpr std::int64_t kLookAgain = kSecond;  // for an absent camera, should an event be missed
-// Until a frame comes after a start: webcams may take two seconds when they have just been plugged in, and
-// most are faster after that. Once a camera has shown how long it takes it is not waited for much longer, so
-// that one that needs a new start to come to itself gets it soon; and so that one that has never delivered
-// does, only its first, second, fourth, eighth … start is given that long.
-constexpr std::int64_t kColdStart = 3 * kSecond;
-constexpr std::int64_t kSilence = kSecond;
-constexpr int kRefusals = 3;  // of a format, before the next is tried
-constexpr std::int64_t kLoanCheck = kSecond / 100;
-constexpr std::int64_t kStopTime = kSecond / 500;  // a stopped stream can be started after that
+constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kRetryDelay = 500 * kMs;  // after a failure
+constexpr std::int64_t kSearchPeriod =
+    1000 * kMs;  // for a missing camera, in case a device change was not reported
+constexpr std::int64_t kConflictRetry =
+    50 * kMs;  // while the other camera may be about to release its device
+constexpr std::int64_t kLoanCheckPeriod = 10 * kMs;  // while closing
+constexpr std::int64_t kMinStopTime = 2 * kMs;       // between stopping and starting a stream
 
-std::string side_name(Side side) { return side == Side::kLeft ? "left" : "right"; }
+// Rounds up, so that a wait does not end before its time.
+std::chrono::milliseconds wait_ms(std::int64_t ns) {
+  return std::chrono::milliseconds(std::max<std::int64_t>(0, ns) / kMs + 1);
+}
+
+std::string seconds_text(std::int64_t ns) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f s", static_cast<double>(ns) * 1e-9);
+  return text;
+}
 
 }  // namespace
 
@@ -35,336 +38,225 @@ V4l2Camera::V4l2Camera(VideoSystem& system, std::shared_ptr<V4l2PairState> pair,
       pair_(std::move(pair)),
       side_(side),
       config_(config),
-      size_{config.v4l2.width, config.v4l2.height},
-      log_(std::move(log)),
       waiter_(system.make_waiter()),
-      stream_(system, size_),
+      status_(side, std::move(log)),
+      locator_(system, *pair_, side, side == Side::kLeft ? config.v4l2.left : config.v4l2.right),
+      stream_(system, {config.v4l2.width, config.v4l2.height}),
       exposure_(*pair_, side, config.v4l2),
-      name_(side == Side::kLeft ? config.v4l2.left : config.v4l2.right) {
-  fault_ = {CameraReason::kNotFound, SetupStage::kFind, 0, "not looked for yet"};
-}
+      fallback_(*pair_, side) {}
 
 FrameLease V4l2Camera::next(std::chrono::milliseconds timeout) noexcept {
-  const std::int64_t until_ns = system_.now_ns() + std::int64_t{timeout.count()} * 1'000'000;
+  const std::int64_t until_ns = system_.now_ns() + std::int64_t{timeout.count()} * kMs;
   do {
     if (stopping_) return {};
     try {
-      if (FrameLease lease = step(until_ns)) return lease;
-    } catch (const std::exception& error) {  // no memory for a list of formats, say
-      out_of_memory(error);
+      if (FrameLease lease = run_once(until_ns)) return lease;
+    } catch (const std::exception& error) {
+      fail_without_memory(error);
     }
   } while (system_.now_ns() < until_ns);
   return {};
 }
 
-// Where there is no memory a sentence may fail too; the next round tries again after a pause.
-void V4l2Camera::out_of_memory(const std::exception& error) noexcept {
-  try {
-    fail(CameraState::kLost, {CameraReason::kNoMemory, SetupStage::kOpen, 0, error.what()});
-  } catch (const std::exception&) {
-    state_ = CameraState::kLost;
-  }
-}
-
-FrameLease V4l2Camera::step(std::int64_t until_ns) {
-  switch (phase_) {
-    case Phase::kClosed:
+FrameLease V4l2Camera::run_once(std::int64_t until_ns) {
+  switch (lifecycle_) {
+    case Lifecycle::kClosed:
       if (system_.now_ns() < retry_ns_) {
         wait_for_device(until_ns);
       } else {
-        open();
+        set_up();
       }
       return {};
-    case Phase::kClosing:
-      finish_closing(until_ns);
+    case Lifecycle::kStreaming:
+      return stream_once(until_ns);
+    case Lifecycle::kClosing:
+      close_when_returned(until_ns);
       return {};
-    case Phase::kFlowing:
-      return fetch(until_ns);
   }
   return {};
 }
 
 void V4l2Camera::wait_for_device(std::int64_t until_ns) {
   const std::int64_t wait_ns = std::min(until_ns, retry_ns_) - system_.now_ns();
-  const auto wait = std::chrono::milliseconds(std::max<std::int64_t>(0, wait_ns) / 1'000'000 + 1);
-  if (waiter_->wait(-1, wait).devices_changed) retry_ns_ = 0;
+  if (waiter_->wait(-1, wait_ms(wait_ns)).devices_changed) retry_ns_ = 0;
 }
 
-void V4l2Camera::open() {
-  std::optional<CameraFault> fault = find_and_open();
+void V4l2Camera::set_up() {
+  std::optional<CameraFault> fault = locator_.locate(status_.has_streamed());
+  if (!fault) fault = open_device();
   if (!fault) {
-    exposure_.begin(stream_.device(), system_.now_ns());
-    set_note(exposure_.note());
-    pair_->started(side_, system_.now_ns());
-    fault = stream_.start(exposure_.exposure_ns());
+    configure_exposure();
+    fault = start_stream();
   }
-  if (!fault) {
-    opened();
-    return;
-  }
-  if (fault->reason == CameraReason::kSameCamera && wait_for_other()) return;
-  if (fault->reason == CameraReason::kNoBandwidth) no_bandwidth(*fault);
-  count_refusal(*fault);
-  const bool absent = fault->step == SetupStage::kFind || fault->reason == CameraReason::kUnplugged;
-  fail(absent ? CameraState::kAbsent : CameraState::kOpening, std::move(*fault));
+  if (fault) return setup_failed(std::move(*fault));
+  lifecycle_ = Lifecycle::kStreaming;
+  const StreamInfo& info = stream_.info();
+  status_.opened(locator_.node() + " (" + info.device.card + ", " + info.device.bus + ")", describe(info));
 }
 
-// A driver may offer a format that it then does not take; the next on the ladder is as good as another bus.
-void V4l2Camera::count_refusal(const CameraFault& fault) {
-  const bool refused = fault.step == SetupStage::kSetFormat && (fault.reason == CameraReason::kOtherFormat ||
-                                                                fault.reason == CameraReason::kNoFormat);
-  refusals_ = refused ? refusals_ + 1 : 0;
-  if (refusals_ < kRefusals) return;
-  refusals_ = 0;
-  pair_->step_down(side_, fallback_level_);
-}
-
-// After ports were swapped the other camera may not have noticed yet that it lost what is found here.
-bool V4l2Camera::wait_for_other() {
-  const std::int64_t now_ns = system_.now_ns();
-  if (refused_ns_ == 0) refused_ns_ = now_ns;
-  if (now_ns - refused_ns_ >= kRetry) return false;
-  retry_ns_ = now_ns + kRetry / 10;
-  return true;
-}
-
-std::optional<CameraFault> V4l2Camera::find_and_open() {
-  std::string stable_name;
-  if (auto fault = find_camera(system_, side_, name_, node_, stable_name)) {
-    pair_->take_device(side_, "");
-    const std::lock_guard lock(mutex_);
-    // Who once had it knows more than that there is none.
-    if (ever_streamed_ && fault->reason == CameraReason::kNotFound) {
-      fault->reason = CameraReason::kUnplugged;
-      fault->sentence = "was unplugged: " + fault->sentence;
-    }
-    return fault;
-  }
-  if (!pair_->take_device(side_, system_.camera_of(node_))) {
-    return CameraFault{CameraReason::kSameCamera, SetupStage::kFind, 0,
-                       node_ + " belongs to the camera that is the " + side_name(opposite(side_)) +
-                           " one; name two cameras in cameras.v4l2"};
-  }
-  refused_ns_ = 0;
-  fallback_level_ = pair_->fallback_level();
-  StreamOptions options{node_, size_, config_.fps, config_.v4l2.format, fallback_level_};
-  std::optional<CameraFault> fault = stream_.open(options);
+std::optional<CameraFault> V4l2Camera::open_device() {
+  fallback_.adopt_common_level();
+  std::optional<CameraFault> fault =
+      stream_.open({locator_.node(), frame_size(), config_.fps, config_.v4l2.format, fallback_.level()});
   pair_->set_stream_info(side_, stream_.info());
-  if (!fault) name_ = stable_name;
+  if (!fault) locator_.keep_camera();
   return fault;
 }
 
-void V4l2Camera::opened() {
-  phase_ = Phase::kFlowing;
-  started();
-  const StreamInfo& info = stream_.info();
-  frame_time_ns_ = info.fps > 0 ? static_cast<std::int64_t>(1e9 / info.fps) : 0;
-  const std::lock_guard lock(mutex_);
-  device_ = node_ + " (" + info.device.card + ", " + info.device.bus + ")";
-  format_ = describe(info);
-  // A wedged or lost camera is that until a frame comes.
-  if (state_ == CameraState::kAbsent) state_ = CameraState::kOpening;
+std::optional<CameraFault> V4l2Camera::start_stream() {
+  pair_->stream_started(side_, system_.now_ns());
+  std::optional<CameraFault> fault = stream_.start(exposure_.exposure_ns());
+  if (!fault) stall_.stream_started(system_.now_ns(), stream_.frame_time_ns());
+  return fault;
 }
 
-void V4l2Camera::started() {
-  last_good_ns_ = system_.now_ns();
-  buffers_at_last_good_ = 0;
-  had_frame_ = false;
-}
-
-FrameLease V4l2Camera::fetch(std::int64_t until_ns) {
-  if (fallback_level_ != pair_->fallback_level()) {
-    change_format();
-    return {};
+void V4l2Camera::setup_failed(CameraFault fault) {
+  const std::int64_t now_ns = system_.now_ns();
+  if (fault.reason == CameraReason::kSameCamera && locator_.conflict_may_pass(now_ns)) {
+    retry_ns_ = now_ns + kConflictRetry;
+    return;
   }
-  if (restart_wanted_) restart_in_phase();
-  if (phase_ != Phase::kFlowing) return {};
-  sync_exposure();
-  const std::int64_t wait_ns = std::min(until_ns, last_good_ns_ + patience_ns()) - system_.now_ns();
-  const auto wait = std::chrono::milliseconds(std::max<std::int64_t>(0, wait_ns) / 1'000'000 + 1);
-  const std::int64_t asked_ns = system_.now_ns();
-  const WaitResult ready = waiter_->wait(stream_.descriptor(), wait);
+  fallback_.setup_failed(fault);
+  const bool absent = fault.stage == SetupStage::kFind || fault.reason == CameraReason::kUnplugged;
+  fail(absent ? SourceState::kAbsent : SourceState::kOpening, std::move(fault));
+}
+
+FrameLease V4l2Camera::stream_once(std::int64_t until_ns) {
+  apply_changes();
+  if (lifecycle_ != Lifecycle::kStreaming) return {};
+  const WaitResult ready = wait_for_frame(until_ns);
   if (stopping_) return {};
-  // If it was this process that stood still, the camera is not to blame.
-  const std::int64_t late_ns = system_.now_ns() - asked_ns - std::max<std::int64_t>(0, wait_ns);
-  if (late_ns > kSilence / 4) last_good_ns_ += late_ns;
-  FrameLease lease;
   if (ready.readable || ready.broken) {
-    int error = 0;
-    SetupStage at = SetupStage::kDequeue;
-    const std::int64_t seen_before = stream_.buffers_seen();
-    lease = stream_.newest(error, at);
-    if (error == 0 && ready.broken && stream_.buffers_seen() == seen_before) {
-      error = EIO;
-      at = SetupStage::kWait;
-    }
-    const bool nothing = !lease && error == 0 && stream_.buffers_seen() == seen_before;
-    if (nothing) waiter_->wait(-1, std::chrono::milliseconds(1));  // a driver that calls for nothing
-    if (error != 0) {
-      lease.end();
-      lose(fault_of(at, error, node_));
-      return {};
+    if (FrameLease lease = fetch(ready)) {
+      frame_received(lease.frame());
+      return lease;
     }
   }
-  if (lease) {
-    const std::int64_t now_ns = system_.now_ns();
-    if (!had_frame_) longest_start_ns_ = std::max(longest_start_ns_, now_ns - last_good_ns_);
-    starts_in_vain_ = 0;
-    last_good_ns_ = now_ns;
-    buffers_at_last_good_ = stream_.buffers_seen();
-    if (state_ != CameraState::kStreaming) streaming();
-    had_frame_ = true;
-    restart_wanted_ = pair_->frame(side_, lease.frame().captured_ns);
-    return lease;
-  }
-  check_silence(system_.now_ns());
+  if (lifecycle_ == Lifecycle::kStreaming) check_stalled();
   return {};
 }
 
-// The other camera has changed what both may put on the bus.
-void V4l2Camera::change_format() {
-  const bool less = pair_->fallback_level() > fallback_level_;
-  fail(CameraState::kOpening,
-       {less ? CameraReason::kNoBandwidth : CameraReason::kMoreBandwidth, SetupStage::kSetFormat, 0,
-        less ? "is set up again with less on the bus, because the other camera cannot get the bandwidth it "
-               "needs"
-             : "is set up again with its best format, because a camera has moved to another bus"});
-  retry_ns_ = 0;
+// Applies what was requested since the last frame: another format, a restart, other controls.
+void V4l2Camera::apply_changes() {
+  if (auto change = fallback_.level_change()) {
+    fail(SourceState::kOpening, std::move(*change));
+    retry_ns_ = 0;
+    return;
+  }
+  if (restart_wanted_) restart_in_phase();
+  if (lifecycle_ == Lifecycle::kStreaming) sync_exposure();
 }
 
-// Starts the stream again at the moment that brings it into phase with the other camera.
+// Restarts the stream at the time that brings it into phase with the other camera.
 void V4l2Camera::restart_in_phase() {
   restart_wanted_ = false;
   stream_.stop();
-  const std::int64_t start_ns = pair_->best_start(system_.now_ns() + kStopTime);
-  system_.sleep_until(start_ns);
-  pair_->started(side_, system_.now_ns());
-  if (auto fault = stream_.start(exposure_.exposure_ns())) {
-    lose(std::move(*fault));
-    return;
-  }
-  started();
+  system_.sleep_until(pair_->best_start(system_.now_ns() + kMinStopTime));
+  if (auto fault = start_stream()) stream_failed(std::move(*fault));
 }
 
-// Between two frames, when nothing waits.
 void V4l2Camera::sync_exposure() {
-  if (exposure_.outdated()) {
-    exposure_.begin(stream_.device(), system_.now_ns());
-    set_note(exposure_.note());
-    return;
+  if (exposure_.is_outdated()) return configure_exposure();
+  if (exposure_.update(stream_.device(), system_.now_ns())) status_.set_note(exposure_.note());
+}
+
+void V4l2Camera::configure_exposure() {
+  exposure_.configure(stream_.device(), system_.now_ns());
+  status_.set_note(exposure_.note());
+}
+
+WaitResult V4l2Camera::wait_for_frame(std::int64_t until_ns) {
+  const std::int64_t begin_ns = system_.now_ns();
+  const std::int64_t wait_ns = std::max<std::int64_t>(0, std::min(until_ns, stall_.deadline_ns()) - begin_ns);
+  const WaitResult ready = waiter_->wait(stream_.descriptor(), wait_ms(wait_ns));
+  stall_.thread_was_late(system_.now_ns() - begin_ns - wait_ns);
+  return ready;
+}
+
+FrameLease V4l2Camera::fetch(const WaitResult& ready) {
+  int error = 0;
+  SetupStage stage = SetupStage::kDequeue;
+  const std::int64_t seen_before = stream_.buffers_seen();
+  FrameLease lease = stream_.newest(error, stage);
+  const bool nothing_dequeued = stream_.buffers_seen() == seen_before;
+  if (error == 0 && ready.broken && nothing_dequeued) {
+    error = EIO;
+    stage = SetupStage::kWait;
   }
-  if (exposure_.tick(stream_.device(), system_.now_ns())) set_note(exposure_.note());
-}
-
-void V4l2Camera::set_note(const std::string& note) {
-  const std::lock_guard lock(mutex_);
-  if (note == note_) return;
-  const bool said = note_.find(note) != note_.npos;  // a part of it may have been withdrawn
-  note_ = note;
-  if (!said) log_(LogLevel::kWarning, "the " + side_name(side_) + " camera: " + note);
-}
-
-// The first frame, or the first again.
-void V4l2Camera::streaming() {
-  pair_->set_flowing(side_, true);
-  silent_starts_ = 0;
-  const std::lock_guard lock(mutex_);
-  if (ever_streamed_) ++reconnects_;
-  if (logged_ != CameraReason::kNone || !ever_streamed_) {
-    log_(LogLevel::kInfo, "the " + side_name(side_) + " camera streams" +
-                              (ever_streamed_ ? " again: " : ": ") + device_ + ", " + format_);
+  if (error != 0) {
+    lease.end();
+    stream_failed(fault_of(stage, error, locator_.node()));
+    return {};
   }
-  ever_streamed_ = true;
-  logged_ = CameraReason::kNone;
-  fault_ = {};
-  state_ = CameraState::kStreaming;
+  // A driver that is readable without a frame must not keep this thread busy.
+  if (!lease && nothing_dequeued) waiter_->wait(-1, std::chrono::milliseconds(1));
+  return lease;
 }
 
-std::int64_t V4l2Camera::patience_ns() const noexcept {
-  std::int64_t start_ns = 0;
-  if (!had_frame_) {
-    const bool cold = longest_start_ns_ == 0 && std::has_single_bit(starts_in_vain_ + 1);
-    start_ns = cold ? kColdStart : longest_start_ns_ + longest_start_ns_ / 2;
+void V4l2Camera::frame_received(const Frame& frame) {
+  stall_.frame_received(system_.now_ns());
+  if (status_.state() != SourceState::kStreaming) {
+    pair_->set_streaming(side_, true);
+    fallback_.streaming();
+    status_.streaming();
   }
-  return std::max({kSilence, std::min(start_ns, kColdStart), 4 * frame_time_ns_.load()});
+  restart_wanted_ = pair_->frame_received(side_, frame.captured_ns);
 }
 
-void V4l2Camera::check_silence(std::int64_t now_ns) {
-  if (now_ns - last_good_ns_ < patience_ns()) return;
-  if (!had_frame_) ++starts_in_vain_;
-  const std::int64_t damaged = stream_.buffers_seen() - buffers_at_last_good_;
+void V4l2Camera::check_stalled() {
+  if (system_.now_ns() < stall_.deadline_ns()) return;
+  const std::string& node = locator_.node();
+  const std::string timeout = seconds_text(stall_.timeout_ns());
   CameraFault fault{CameraReason::kSilent, SetupStage::kWait, 0,
-                    node_ + " has fallen silent; it is set up again until frames come"};
-  if (damaged > 0) {
+                    node + ": no frame for " + timeout + "; restarting the stream until frames arrive"};
+  if (stream_.buffers_since_frame() > 0) {
     fault.reason = CameraReason::kOnlyDamaged;
-    fault.sentence = node_ + " sends only damaged frames, the last one " +
+    fault.sentence = node + ": only damaged frames for " + timeout + ", the last one " +
                      std::string(name_of(stream_.last_damage())) +
                      "; check its cable, or set cameras.v4l2.format";
   } else {
-    // A bus that is full may also show itself by frames that never come.
-    const bool starved = !had_frame_ && pair_->may_starve(side_);
-    silent_starts_ = starved ? silent_starts_ + 1 : 0;
-    if (silent_starts_ >= 2) no_bandwidth(fault);
+    fallback_.stream_silent(stall_.has_frame(), fault);
   }
-  fail(CameraState::kStalled, std::move(fault));
-  retry_ns_ = 0;  // it was silent long enough
+  stall_.stalled();
+  fail(SourceState::kStalled, std::move(fault));
+  retry_ns_ = 0;
 }
 
-// Goes one step down where the configuration allows it, and says what it does.
-void V4l2Camera::no_bandwidth(CameraFault& fault) {
-  fault.reason = CameraReason::kNoBandwidth;
-  fault.sentence = pair_->bandwidth_sentence(side_);
-  const bool stepped = pair_->step_down(side_, fallback_level_);
-  if (!stepped) return;  // and every start in vain is blamed on the bus
-  fault.sentence += "; until then both cameras are set up with less";
-  silent_starts_ = 0;
-}
-
-// A stream that failed.
-void V4l2Camera::lose(CameraFault fault) {
-  if (fault.reason == CameraReason::kNoBandwidth) no_bandwidth(fault);
-  fail(CameraState::kLost, std::move(fault));
-}
-
-void V4l2Camera::fail(CameraState state, CameraFault fault) {
-  const bool look_again = fault.step == SetupStage::kFind || fault.reason == CameraReason::kUnplugged;
-  stream_.stop();
-  pair_->set_flowing(side_, false);
-  pair_->stopped(side_);
-  if (look_again) {  // the next may be another camera, or a cold one
-    longest_start_ns_ = 0;
-    starts_in_vain_ = 0;
-  }
-  restart_wanted_ = false;
-  phase_ = Phase::kClosing;
-  retry_ns_ = system_.now_ns() + (look_again ? kLookAgain : kRetry);
-  const std::lock_guard lock(mutex_);
-  // A camera that is set up in vain stays what it became when it failed.
-  const bool still_down = state_ == CameraState::kStalled || state_ == CameraState::kLost;
-  if (!(still_down && state == CameraState::kOpening)) state_ = state;
-  if (fault.reason != fault_.reason || last_fault_ns_ == 0) {
-    last_fault_ = fault.sentence;
-    last_fault_ns_ = system_.now_ns();
-  }
-  fault_ = std::move(fault);
-  if (fault_.reason == logged_) return;
-  logged_ = fault_.reason;
-  log_(LogLevel::kWarning,
-       "the " + side_name(side_) + " camera is " + std::string(name_of(state_)) + ": " + fault_.sentence);
-}
-
-void V4l2Camera::finish_closing(std::int64_t until_ns) {
+void V4l2Camera::close_when_returned(std::int64_t until_ns) {
   if (stream_.on_loan()) {
-    const std::int64_t wait_ns = std::min(until_ns - system_.now_ns(), kLoanCheck);
-    waiter_->wait(-1, std::chrono::milliseconds(std::max<std::int64_t>(1, wait_ns / 1'000'000)));
+    const std::int64_t wait_ns = std::min(until_ns - system_.now_ns(), kLoanCheckPeriod);
+    waiter_->wait(-1, std::chrono::milliseconds(std::max<std::int64_t>(1, wait_ns / kMs)));
     return;
   }
   stream_.close();
-  phase_ = Phase::kClosed;
+  lifecycle_ = Lifecycle::kClosed;
 }
 
-SourceState V4l2Camera::state() const noexcept {
-  return state_ == CameraState::kStreaming ? SourceState::kStreaming : SourceState::kWaiting;
+void V4l2Camera::stream_failed(CameraFault fault) {
+  fallback_.stream_failed(fault);
+  fail(SourceState::kLost, std::move(fault));
+}
+
+// Stops the stream and begins to close the device.
+void V4l2Camera::fail(SourceState state, CameraFault fault) {
+  const bool missing = fault.stage == SetupStage::kFind || fault.reason == CameraReason::kUnplugged;
+  stream_.stop();
+  pair_->set_streaming(side_, false);
+  pair_->stream_stopped(side_);
+  if (missing) stall_.forget_starts();
+  restart_wanted_ = false;
+  lifecycle_ = Lifecycle::kClosing;
+  const std::int64_t now_ns = system_.now_ns();
+  retry_ns_ = now_ns + (missing ? kSearchPeriod : kRetryDelay);
+  status_.failed(state, std::move(fault), now_ns);
+}
+
+void V4l2Camera::fail_without_memory(const std::exception& error) noexcept {
+  try {
+    fail(SourceState::kLost, {CameraReason::kNoMemory, SetupStage::kOpen, 0, error.what()});
+  } catch (const std::exception&) {
+    status_.failed_silently();
+  }
 }
 
 void V4l2Camera::stop() noexcept {
@@ -372,23 +264,10 @@ void V4l2Camera::stop() noexcept {
   waiter_->wake();
 }
 
-CameraFault V4l2Camera::fault() const {
-  const std::lock_guard lock(mutex_);
-  return fault_;
-}
-
 SourceReport V4l2Camera::report() const {
-  const DropCounts drops = stream_.drops();
-  const std::lock_guard lock(mutex_);
   SourceReport report;
-  report.state = name_of(state_);
-  report.reason = state_ == CameraState::kStreaming ? "" : fault_.sentence;
-  report.device = device_;
-  report.format = format_;
-  report.note = note_;
-  report.last_fault = last_fault_;
-  report.last_fault_ns = last_fault_ns_;
-  report.reconnects = reconnects_;
+  status_.fill(report);
+  const DropCounts drops = stream_.drops();
   report.sequence_gaps = stream_.frames_missed();
   report.decode_errors =
       drops[FrameDrop::kNoJpeg] + drops[FrameDrop::kJpegSize] + drops[FrameDrop::kJpegDamaged];
@@ -398,4 +277,4 @@ SourceReport V4l2Camera::report() const {
   return report;
 }
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

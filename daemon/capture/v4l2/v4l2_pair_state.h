@@ -1,4 +1,5 @@
-// What the two cameras of a rig have to know of each other.
+// SPDX-License-Identifier: BSD-3-Clause
+// What the two cameras of a pair must know of each other.
 #pragma once
 
 #include <atomic>
@@ -9,98 +10,113 @@
 
 #include "core/sync/pairing.h"
 #include "core/sync/phase_sync.h"
-#include "daemon/capture/v4l2/camera_stream.h"
+#include "daemon/capture/v4l2/stream_setup.h"
 #include "daemon/config/config.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 
-/// What a camera's exposure is made of; what the camera does not have is missing.
+/// Exposure time and gain of a camera; a control that the camera does not have is missing.
 struct ExposureValues {
-  std::optional<std::int32_t> time;  ///< exposure_time_absolute, 100 µs
+  std::optional<std::int32_t> time;  ///< exposure_time_absolute [100 µs]
   std::optional<std::int32_t> gain;
   friend bool operator==(const ExposureValues&, const ExposureValues&) = default;
 };
 
-/// How far the phase alignment is, for the status message.
+/// State of the synchronization of exposure (core/sync/phase_sync.h), for the status message.
 struct PhaseSyncReport {
   PhaseSyncState state = PhaseSyncState::kWaiting;
-  double skew_ms = 0;
-  std::int64_t restarts = 0;
+  double skew_ms = 0;         ///< right − left [ms]
+  std::int64_t restarts = 0;  ///< of one camera's stream, since the start
 };
+/// Returns the word of the status message: off, waiting, measuring, restarting, aligned, drifted, given up.
 std::string_view name_of(PhaseSyncState state);
 
-/// Shared by the two cameras' threads.
+/// The state that two cameras share: which device each one uses, the format fallback and the bandwidth of
+/// their bus, the synchronization of their exposure times, exposure values, and controls.
+///
+/// Threads: all members may be called from any thread; each camera's thread calls those with its side.
+/// Nothing blocks for longer than the lock is held.
 class V4l2PairState {
  public:
   explicit V4l2PairState(const CamerasConfig& config);
 
-  /// `device` (VideoSystem::camera_of) is the other camera's already: then it is not taken, and this is
-  /// false. Empty: this camera is gone.
-  bool take_device(Side side, const std::string& device);
+  /// Claims a device (VideoSystem::camera_id()) for one side; an empty name gives the claim up because the
+  /// camera is unplugged. Returns false if the other camera has claimed the device.
+  bool claim_device(Side side, const std::string& device);
 
-  /// What a camera was set up as, and whether frames come.
+  /// Records how a camera was set up, and whether it delivers frames.
   void set_stream_info(Side side, const StreamInfo& info);
-  void set_flowing(Side side, bool flowing);
+  void set_streaming(Side side, bool streaming);
 
-  /// The phase alignment (see there): a stream was started or has stopped, a frame came. True: the camera of
-  /// this frame has to be restarted, at `best_start` if it can be from `ready_ns` on.
-  void started(Side side, std::int64_t at_ns) noexcept;
-  void stopped(Side side) noexcept;
-  bool frame(Side side, std::int64_t captured_ns) noexcept;
+  // Synchronization of exposure (PhaseSync). All times are CLOCK_MONOTONIC.
+
+  void stream_started(Side side, std::int64_t at_ns) noexcept;
+  void stream_stopped(Side side) noexcept;
+  /// Records a frame. Returns true if this camera's stream must be restarted, at best_start().
+  bool frame_received(Side side, std::int64_t captured_ns) noexcept;
+  /// Returns when to start the stream so that its frames coincide with the other camera's; not before @p
+  /// ready_ns.
   std::int64_t best_start(std::int64_t ready_ns) noexcept;
-  PhaseSyncReport phase() noexcept;
+  PhaseSyncReport sync_report() noexcept;
 
-  /// The exposure that both cameras should have; nothing while none is known.
+  // Exposure values that both cameras should have; nothing until the left camera has shared its own.
+
   void set_exposure(const ExposureValues& values) noexcept;
   std::optional<ExposureValues> exposure() noexcept;
 
-  /// Other controls and another exposure mode for both cameras, which take them between two frames or when
-  /// they are set up next. The exposure is found anew.
+  // Controls and exposure mode.
+
+  /// Replaces them for both cameras, which apply them between two frames or when they are set up next.
+  /// Discards the shared exposure.
   void set_controls(const V4l2Config& config);
-  /// Their configuration as it is now; each change has a higher number.
+  /// Returns them. @p number increases with every change.
   V4l2Config controls(int& number);
   int controls_number() const noexcept { return controls_number_; }
 
-  /// Where on the ladder of formats both cameras stand: both on one step, because two cameras on one bus
-  /// share its bandwidth and because matching needs two equal images. It begins anew at the top when both
-  /// cameras are gone, and when one comes back on another bus; while one streams it is not disturbed to try.
+  // Format fallbacks (format_fallbacks.h).
+
+  /// Returns the fallback level of both cameras; 0 is the best format. They share one level because two
+  /// cameras on one bus share its bandwidth, and because matching needs two equal images. The level returns
+  /// to 0 when both cameras are unplugged, and when one comes back on another bus. A camera that streams is
+  /// not interrupted to try a better one.
   int fallback_level() const noexcept { return fallback_level_; }
-  /// `side` cannot get the bandwidth it needs at `step`. True: both have now to be set up further down.
-  /// False: there is no further step.
-  bool step_down(Side side, int step);
+  /// Requests the level after @p level, at which @p side could not get its bandwidth. Returns true if both
+  /// cameras must now be set up with a higher level, false if the configuration names a format or there is no
+  /// further fallback.
+  bool fall_back(Side side, int level);
 
-  /// Whether the other camera was started on the bus that `side` is on, and nothing has shown yet that the
-  /// bus can carry both as they are.
-  bool may_starve(Side side);
+  /// Returns true if missing frames of @p side may be due to a full bus: the other camera was started on the
+  /// same bus, and the bus has not yet carried both streams at this level.
+  bool may_lack_bandwidth(Side side);
 
-  /// Says which bus is full, what both cameras ask of it, and what to do.
+  /// Returns a sentence that names the full bus, the streams of both cameras, and what to do.
   std::string bandwidth_sentence(Side side);
 
  private:
   struct Camera {
     bool present() const { return !device.empty(); }
 
-    std::string device;  // found when it was last looked for; the other camera may not have it
+    std::string device;  // claimed
     StreamInfo info;
-    std::string bus;       // where it is, or was when it was last there
-    bool running = false;  // started
-    bool flowing = false;  // and frames come
+    std::string bus;         // of the camera now, or when it was last plugged in
+    bool started = false;    // the stream
+    bool streaming = false;  // frames arrive
   };
   bool on_same_bus() const;
   void reset_fallbacks();
-  Camera& of(Side side) { return cameras_[side == Side::kLeft ? 0 : 1]; }
+  Camera& camera(Side side) { return cameras_[side == Side::kLeft ? 0 : 1]; }
 
   CamerasConfig config_;
   std::atomic<int> controls_number_{0};
   std::mutex mutex_;
   Camera cameras_[2];
   std::atomic<int> fallback_level_{0};
-  int carried_step_ = -1;  // of the ladder, at which one bus has carried both
-  PhaseSync phase_;
+  int proven_level_ = -1;  // fallback level at which one bus has carried both streams
+  PhaseSync phase_sync_;
   std::optional<ExposureValues> exposure_;
 };
 
-/// The bus of a device by its bus_info: "usb-0000:00:14.0-3.1" is on "usb-0000:00:14.0".
+/// Returns the bus in a device's bus_info: "usb-0000:00:14.0" for "usb-0000:00:14.0-3.1".
 std::string bus_of(const std::string& bus_info);
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

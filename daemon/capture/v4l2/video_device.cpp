@@ -1,26 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Opening, formats, buffers, streaming, control values. Listings: video_device_lists.cpp.
 #include "daemon/capture/v4l2/video_device.h"
 
 #include <linux/videodev2.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 
-namespace stereod {
+#include "daemon/capture/v4l2/videodev2_fields.h"
+
+namespace stereod::v4l2 {
 namespace {
 
 constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-// Drivers end their lists with an error; one that never does is cut off here.
-constexpr std::uint32_t kMaxList = 256;
-
-std::string text_of(const __u8* field, std::size_t size) {
-  const char* text = reinterpret_cast<const char*>(field);
-  std::string name(text, strnlen(text, size));
-  // It goes to terminals and logs, and comes from whatever was plugged in.
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
-  std::replace_if(name.begin(), name.end(), is_control, '?');
-  return name;
-}
 
 v4l2_buffer buffer_of(std::uint32_t index) {
   v4l2_buffer buffer{};
@@ -30,36 +22,7 @@ v4l2_buffer buffer_of(std::uint32_t index) {
   return buffer;
 }
 
-double rate_of(const v4l2_fract& interval) {
-  return interval.numerator > 0 ? static_cast<double>(interval.denominator) / interval.numerator : 0;
-}
-
-/// "Exposure Time, Absolute" as v4l2-ctl and the configuration write it: exposure_time_absolute.
-std::string control_name(const std::string& title) {
-  std::string name;
-  for (const char c : title) {
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    if (letter) {
-      name += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    } else if (!name.empty() && name.back() != '_') {
-      name += '_';
-    }
-  }
-  while (!name.empty() && name.back() == '_') name.pop_back();
-  return name;
-}
-
 }  // namespace
-
-std::string fourcc_name(std::uint32_t format) {
-  std::string name;
-  for (int shift = 0; shift < 32; shift += 8) {
-    const auto c = static_cast<unsigned char>(format >> shift);
-    name += c > ' ' && c < 127 ? static_cast<char>(c) : c == ' ' ? ' ' : '?';
-  }
-  while (!name.empty() && name.back() == ' ') name.pop_back();
-  return name;
-}
 
 int VideoDevice::open(const std::string& node, bool convert) {
   close();
@@ -86,112 +49,32 @@ int VideoDevice::capability(DeviceCapability& capability) {
   return 0;
 }
 
-int VideoDevice::formats(std::vector<std::uint32_t>& formats) {
-  formats.clear();
-  for (std::uint32_t i = 0; i < kMaxList; ++i) {
-    v4l2_fmtdesc answer{};
-    answer.index = i;
-    answer.type = kCapture;
-    if (const int error = request(VIDIOC_ENUM_FMT, &answer)) {
-      return error == EINVAL || error == ENOTTY ? 0 : error;
-    }
-    formats.push_back(answer.pixelformat);
-  }
-  return 0;
-}
-
-int VideoDevice::offers_size(std::uint32_t pixels, Size size, bool& offered) {
-  const auto width = static_cast<std::uint32_t>(size.width), height = static_cast<std::uint32_t>(size.height);
-  offered = false;
-  for (std::uint32_t i = 0; i < kMaxList; ++i) {
-    v4l2_frmsizeenum answer{};
-    answer.index = i;
-    answer.pixel_format = pixels;
-    if (const int error = request(VIDIOC_ENUM_FRAMESIZES, &answer)) {
-      if (i == 0 && (error == EINVAL || error == ENOTTY)) offered = true;
-      return error == EINVAL || error == ENOTTY ? 0 : error;
-    }
-    if (answer.type == V4L2_FRMSIZE_TYPE_DISCRETE) {
-      offered = answer.discrete.width == width && answer.discrete.height == height;
-    } else {
-      const v4l2_frmsize_stepwise& range = answer.stepwise;
-      offered = width >= range.min_width && width <= range.max_width && height >= range.min_height &&
-                height <= range.max_height;
-      return 0;
-    }
-    if (offered) return 0;
-  }
-  return 0;
-}
-
-std::vector<Size> VideoDevice::sizes(std::uint32_t pixels) {
-  std::vector<Size> sizes;
-  const auto add = [&](std::uint32_t width, std::uint32_t height) {
-    sizes.push_back({static_cast<int>(width), static_cast<int>(height)});
-  };
-  for (std::uint32_t i = 0; i < kMaxList; ++i) {
-    v4l2_frmsizeenum answer{};
-    answer.index = i;
-    answer.pixel_format = pixels;
-    if (request(VIDIOC_ENUM_FRAMESIZES, &answer) != 0) break;
-    if (answer.type == V4L2_FRMSIZE_TYPE_DISCRETE) {
-      add(answer.discrete.width, answer.discrete.height);
-    } else {
-      add(answer.stepwise.min_width, answer.stepwise.min_height);
-      add(answer.stepwise.max_width, answer.stepwise.max_height);
-      break;
-    }
-  }
-  return sizes;
-}
-
-OfferedRates VideoDevice::rates(std::uint32_t pixels, Size size) {
-  OfferedRates rates;
-  for (std::uint32_t i = 0; i < kMaxList; ++i) {
-    v4l2_frmivalenum answer{};
-    answer.index = i;
-    answer.pixel_format = pixels;
-    answer.width = static_cast<std::uint32_t>(size.width);
-    answer.height = static_cast<std::uint32_t>(size.height);
-    if (request(VIDIOC_ENUM_FRAMEINTERVALS, &answer) != 0) break;
-    if (answer.type == V4L2_FRMIVAL_TYPE_DISCRETE) {
-      rates.listed.push_back(rate_of(answer.discrete));
-    } else {
-      rates.listed = {rate_of(answer.stepwise.min), rate_of(answer.stepwise.max)};
-      rates.range = true;
-      break;
-    }
-  }
-  std::sort(rates.listed.begin(), rates.listed.end(), std::greater<>());
-  return rates;
-}
-
 int VideoDevice::set_format(DeviceFormat& format) {
   v4l2_format answer{};
   answer.type = kCapture;
   answer.fmt.pix.width = static_cast<std::uint32_t>(format.size.width);
   answer.fmt.pix.height = static_cast<std::uint32_t>(format.size.height);
-  answer.fmt.pix.pixelformat = format.pixels;
+  answer.fmt.pix.pixelformat = format.fourcc;
   answer.fmt.pix.field = V4L2_FIELD_ANY;
   if (const int error = request(VIDIOC_S_FMT, &answer)) return error;
   const v4l2_pix_format& got = answer.fmt.pix;
-  constexpr std::uint32_t kMax = 1u << 20;  // px; keeps what follows from overflowing
-  format.pixels = got.pixelformat;
+  constexpr std::uint32_t kMax = 1u << 20;  // [px] keeps products of sizes from overflowing
+  format.fourcc = got.pixelformat;
   format.size = {static_cast<int>(std::min(got.width, kMax)), static_cast<int>(std::min(got.height, kMax))};
   format.bytes_per_line = got.bytesperline;
   format.image_bytes = got.sizeimage;
   return 0;
 }
 
-int VideoDevice::set_rate(double fps, double& got) {
-  got = 0;
+int VideoDevice::set_rate(double fps, double& actual) {
+  actual = 0;
   v4l2_streamparm answer{};
   answer.type = kCapture;
   answer.parm.capture.timeperframe = {1000, static_cast<std::uint32_t>(fps * 1000 + 0.5)};
   if (const int error = request(VIDIOC_S_PARM, &answer)) {
-    return error == EINVAL || error == ENOTTY ? 0 : error;  // many drivers have no rate to set
+    return error == EINVAL || error == ENOTTY ? 0 : error;  // many drivers have a fixed rate
   }
-  got = rate_of(answer.parm.capture.timeperframe);
+  actual = rate_of(answer.parm.capture.timeperframe);
   return 0;
 }
 
@@ -249,30 +132,6 @@ int VideoDevice::stream_off() noexcept {
   return request(VIDIOC_STREAMOFF, &type);
 }
 
-std::vector<DeviceControl> VideoDevice::controls() {
-  std::vector<DeviceControl> controls;
-  std::uint32_t id = 0;
-  for (std::uint32_t i = 0; i < kMaxList; ++i) {
-    v4l2_queryctrl answer{};
-    answer.id = id | V4L2_CTRL_FLAG_NEXT_CTRL;
-    if (request(VIDIOC_QUERYCTRL, &answer) != 0) break;
-    id = answer.id;
-    const bool number = answer.type == V4L2_CTRL_TYPE_INTEGER || answer.type == V4L2_CTRL_TYPE_BOOLEAN ||
-                        answer.type == V4L2_CTRL_TYPE_MENU || answer.type == V4L2_CTRL_TYPE_INTEGER_MENU;
-    if (!number || (answer.flags & V4L2_CTRL_FLAG_DISABLED) != 0) continue;
-    DeviceControl control;
-    control.id = answer.id;
-    control.name = control_name(text_of(answer.name, sizeof answer.name));
-    control.least = answer.minimum;
-    control.most = answer.maximum;
-    control.step = std::max(answer.step, 1);
-    control.preset = answer.default_value;
-    control.writable = (answer.flags & V4L2_CTRL_FLAG_READ_ONLY) == 0;
-    controls.push_back(std::move(control));
-  }
-  return controls;
-}
-
 int VideoDevice::get_control(std::uint32_t id, std::int32_t& value) noexcept {
   v4l2_control control{};
   control.id = id;
@@ -288,4 +147,4 @@ int VideoDevice::set_control(std::uint32_t id, std::int32_t value) noexcept {
   return request(VIDIOC_S_CTRL, &control);
 }
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,5 +1,6 @@
-// The kernel's side of cameras, small enough to be faked: descriptors, ioctls, mappings, waiting, what is
-// plugged in.
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernel's side of cameras, small enough to be faked in tests: descriptors, ioctls, mappings, waiting,
+// and which devices are plugged in.
 #pragma once
 
 #include <chrono>
@@ -9,65 +10,65 @@
 #include <string>
 #include <vector>
 
-namespace stereod {
+namespace stereod::v4l2 {
 
-/// Why a wait ended; several may be true, none if the time ran out.
+/// Why a wait ended. Several members may be true; none is true after the timeout.
 struct WaitResult {
   bool readable = false;         ///< a frame can be dequeued
-  bool broken = false;           ///< the device reports an error or is gone
-  bool devices_changed = false;  ///< a device came, went, or got other permissions
+  bool broken = false;           ///< the device reports an error or was unplugged
+  bool devices_changed = false;  ///< a device was added or removed, or its permissions changed
 };
 
-/// What one camera's thread waits with.
+/// Blocks the thread of one camera.
 class Waiter {
  public:
   virtual ~Waiter() = default;
 
-  /// Waits for the descriptor to have a frame, or with -1 for devices to change. Ends early after wake().
+  /// Blocks until @p descriptor has a frame (-1: until devices change), until @p timeout, or until wake().
   virtual WaitResult wait(int descriptor, std::chrono::milliseconds timeout) noexcept = 0;
 
-  /// Ends the wait that goes on, and every one after it at once. Any thread.
+  /// Ends the current wait and makes every later one return at once. Any thread.
   virtual void wake() noexcept = 0;
 };
 
-/// A video node of the system. Not every one is a camera: UVC cameras have a second one for metadata.
+/// A video node. Not every node captures images: a UVC camera has a second one for metadata.
 struct VideoNode {
   std::string node;                ///< /dev/video0
-  std::vector<std::string> links;  ///< its stable names below /dev/v4l/by-path and by-id
-  std::string serial;              ///< of the USB device; empty if it has none
+  std::vector<std::string> links;  ///< its stable names in /dev/v4l/by-path and by-id
+  std::string serial;              ///< of the USB device; empty if the device has none
 };
 
-/// What the daemon asks of the kernel. Any thread; an error is an errno value, 0 is success. Only open(),
+/// The daemon's requests to the kernel. Any thread. An error is an errno value, 0 is success. Only open(),
 /// nodes() and make_waiter() may allocate or throw.
 class VideoSystem {
  public:
   virtual ~VideoSystem() = default;
 
-  /// Every video node, sorted by its first stable name, then by number.
+  /// Returns every video node, sorted by its first stable name, then by its number.
   virtual std::vector<VideoNode> nodes() = 0;
-  /// The node that a name below /dev stands for now, its links followed; empty if there is none.
+  /// Returns the node that a path in /dev refers to now, with its links followed; empty if there is none.
   virtual std::string resolve(const std::string& name) = 0;
-  /// What tells one camera from another: the same for two nodes of one USB video function, which share a
-  /// sensor. Two functions of one device are two cameras; a stereo webcam has those. The node itself for what
-  /// is not on USB.
-  virtual std::string camera_of(const std::string& node) = 0;
+  /// Returns a name that is the same for all nodes of one camera: its USB video function, or the node itself
+  /// for a device that is not on USB. Two nodes of one function share a sensor. Two functions of one device
+  /// are two cameras, as in a stereo webcam.
+  virtual std::string camera_id(const std::string& node) = 0;
   virtual std::unique_ptr<Waiter> make_waiter() = 0;
 
-  /// Opens a node without blocking; a descriptor, or minus an errno value. `convert`: through libv4l2, which
-  /// then offers formats the camera itself does not have.
+  /// Opens a node for non-blocking use. Returns a descriptor, or a negative errno value. @p convert: through
+  /// libv4l2, which converts formats that the daemon does not read.
   virtual int open(const std::string& node, bool convert) = 0;
   virtual void close(int descriptor) noexcept = 0;
   virtual int ioctl(int descriptor, unsigned long request, void* argument) noexcept = 0;
-  /// Null if it cannot be mapped; then `error` says why.
+  /// Returns null on failure and sets @p error to an errno value.
   virtual void* map(int descriptor, std::size_t length, std::int64_t offset, int& error) noexcept = 0;
   virtual void unmap(void* memory, std::size_t length) noexcept = 0;
-  /// CLOCK_MONOTONIC, the clock of the drivers' time stamps.
+  /// Returns CLOCK_MONOTONIC, the clock of the drivers' timestamps.
   virtual std::int64_t now_ns() noexcept = 0;
-  /// Sleeps to the moment, for what has to be done just then.
+  /// Blocks until @p time_ns of CLOCK_MONOTONIC.
   virtual void sleep_until(std::int64_t time_ns) noexcept = 0;
 };
 
-/// The system this program runs on. Throws std::system_error.
+/// Returns access to the running kernel.
 std::unique_ptr<VideoSystem> make_kernel_video_system();
 
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The clock of recorded and rendered cameras.
 #include "daemon/capture/frame_clock.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kLongEnough = 20s;
-constexpr auto kForever = 24h;  // whoever must wait for it is stopped from outside
+constexpr auto kForever = 24h;  // the test stops such a wait from outside
 
 std::int64_t now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -21,7 +23,7 @@ std::int64_t now_ns() {
       .count();
 }
 
-TEST(FrameClockPaced, FramesAreDueOneExactPeriodApartAndNeverEarly) {
+TEST(FrameClockPaced, Frames_ExactPeriodNeverEarly) {
   FrameClock clock(400, {0ns});
   const auto first = clock.wait(0, kLongEnough);
   ASSERT_TRUE(first.has_value());
@@ -36,7 +38,7 @@ TEST(FrameClockPaced, FramesAreDueOneExactPeriodApartAndNeverEarly) {
   }
 }
 
-TEST(FrameClockPaced, ALateConsumerGetsTheNewestFrameAndSeesTheGap) {
+TEST(FrameClockPaced, LateConsumer_NewestFrameWithGap) {
   FrameClock clock(1000, {0ns});
   ASSERT_TRUE(clock.wait(0, kLongEnough).has_value());
   std::this_thread::sleep_for(50ms);
@@ -45,10 +47,10 @@ TEST(FrameClockPaced, ALateConsumerGetsTheNewestFrameAndSeesTheGap) {
   EXPECT_GE(late->number, 50);
   const auto next = clock.wait(0, kLongEnough);
   ASSERT_TRUE(next.has_value());
-  EXPECT_GT(next->number, late->number);  // what was skipped does not come after all
+  EXPECT_GT(next->number, late->number);  // skipped frames do not follow later
 }
 
-TEST(FrameClockPaced, CamerasShareOneTimeOrigin) {
+TEST(FrameClockPaced, Offsets_ShareOneOrigin) {
   FrameClock clock(500, {0ns, 1500us, -700us});
   std::int64_t origin = 0;
   for (int round = 0; round < 5; ++round) {
@@ -63,13 +65,13 @@ TEST(FrameClockPaced, CamerasShareOneTimeOrigin) {
   }
 }
 
-TEST(FrameClockPaced, DoesNotWaitForLeases) {
+TEST(FrameClockPaced, FramesOnLoan_NoWait) {
   FrameClock clock(1000, {0ns, 0ns});
   for (int i = 0; i < 5; ++i)
-    EXPECT_TRUE(clock.wait(0, kLongEnough).has_value());  // none given back, camera 1 idle
+    EXPECT_TRUE(clock.wait(0, kLongEnough).has_value());  // no frame given back, camera 1 idle
 }
 
-TEST(FrameClockPaced, TimesOut) {
+TEST(FrameClockPaced, NotDue_TimesOut) {
   FrameClock clock(0.001, {0ns});
   const auto first = clock.wait(0, kLongEnough);  // at once
   ASSERT_TRUE(first.has_value());
@@ -78,7 +80,7 @@ TEST(FrameClockPaced, TimesOut) {
   EXPECT_FALSE(clock.wait(0, 0ms).has_value());
 }
 
-TEST(FrameClockPaced, StopEndsAWait) {
+TEST(FrameClockPaced, Stop_EndsWait) {
   FrameClock clock(0.001, {0ns});
   ASSERT_TRUE(clock.wait(0, kForever).has_value());
   std::jthread stopper([&] {
@@ -86,10 +88,10 @@ TEST(FrameClockPaced, StopEndsAWait) {
     clock.stop(0);
   });
   EXPECT_FALSE(clock.wait(0, kForever).has_value());
-  EXPECT_FALSE(clock.wait(0, kForever).has_value());  // and all that follow
+  EXPECT_FALSE(clock.wait(0, kForever).has_value());  // and every later wait
 }
 
-TEST(FrameClockFree, OneFrameIsOnLoanAndNoneIsSkipped) {
+TEST(FrameClockFree, OneOnLoan_NoneSkipped) {
   FrameClock clock(0, {0ns});
   std::int64_t captured = 0;
   for (int n = 0; n < 50; ++n) {
@@ -103,7 +105,7 @@ TEST(FrameClockFree, OneFrameIsOnLoanAndNoneIsSkipped) {
   }
 }
 
-TEST(FrameClockFree, FramesOfAPairCarryOneTimeAndNoCameraRunsAhead) {
+TEST(FrameClockFree, TwoCameras_SameTimeInStep) {
   FrameClock clock(0, {0ns, 3ms});
   for (int n = 0; n < 50; ++n) {
     const int leader = n % 2, follower = 1 - leader;
@@ -121,7 +123,7 @@ TEST(FrameClockFree, FramesOfAPairCarryOneTimeAndNoCameraRunsAhead) {
   }
 }
 
-TEST(FrameClockFree, ALeaderMayHoldItsNextFrameWhileTheOtherLags) {
+TEST(FrameClockFree, Leader_OneFrameAhead) {
   FrameClock clock(0, {0ns, 0ns});
   const auto left0 = clock.wait(0, kLongEnough);
   const auto right0 = clock.wait(1, kLongEnough);
@@ -136,7 +138,7 @@ TEST(FrameClockFree, ALeaderMayHoldItsNextFrameWhileTheOtherLags) {
   EXPECT_EQ(right1->captured_ns, left1->captured_ns);
 }
 
-TEST(FrameClockFree, GivingBackWakesTheCamera) {
+TEST(FrameClockFree, GiveBack_WakesCamera) {
   FrameClock clock(0, {0ns});
   ASSERT_TRUE(clock.wait(0, kLongEnough).has_value());
   std::jthread consumer([&] {
@@ -148,7 +150,7 @@ TEST(FrameClockFree, GivingBackWakesTheCamera) {
   EXPECT_EQ(next->number, 1);
 }
 
-TEST(FrameClockFree, AStoppedCameraHoldsNobodyUp) {
+TEST(FrameClockFree, StoppedCamera_OtherContinues) {
   FrameClock clock(0, {0ns, 0ns});
   ASSERT_TRUE(clock.wait(0, kLongEnough).has_value());
   clock.give_back(0);
@@ -165,7 +167,7 @@ TEST(FrameClockFree, AStoppedCameraHoldsNobodyUp) {
   EXPECT_FALSE(clock.wait(1, kForever).has_value());
 }
 
-TEST(FrameClock, RefusesImpossibleRates) {
+TEST(FrameClock, RateOutOfRange_Throws) {
   for (const double fps : {-1.0, 1000.5, std::nan(""), HUGE_VAL}) {
     EXPECT_THROW(FrameClock(fps, {0ns}), std::invalid_argument) << fps;
   }
@@ -173,7 +175,7 @@ TEST(FrameClock, RefusesImpossibleRates) {
     const FrameClock clock(-2, {0ns});
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "frames come at 0 to 1000 frames a second, not -2");
+    EXPECT_STREQ(error.what(), "frame rate -2 Hz (allowed 0…1000)");
   }
 }
 

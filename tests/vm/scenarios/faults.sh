@@ -37,7 +37,7 @@ fault() {
       ;;
     freeze)
       tell "$side" freeze
-      need "$side" state wedged reason 'fallen silent'
+      need "$side" state stalled reason 'no frame for'
       tell "$side" thaw
       ;;
     refuse)

@@ -19,7 +19,7 @@ done
 get_status
 cat status.txt
 for side in left right; do
-  [[ $(of_camera $side format) == "MJPG 640×480 at 30/s" ]] || fail "the $side camera does not give MJPEG at 30/s"
+  [[ $(of_camera $side format) == "MJPG 640×480 at 30 Hz" ]] || fail "the $side camera does not give MJPEG at 30/s"
 done
 # Fifteen seconds of it: what each camera gives, what share of the frames is paired, whether every row arrives.
 look() {

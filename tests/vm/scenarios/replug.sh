@@ -37,7 +37,7 @@ need right device usb-vhci_hcd.0-2
 echo "=== freeze for 3 s"
 tell right freeze  # it is the left one now
 sleep 3
-need left state wedged reason 'fallen silent'
+need left state stalled reason 'no frame for'
 tell right thaw
 need_recovery "the silence"
 cat status.txt

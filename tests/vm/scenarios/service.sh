@@ -160,7 +160,7 @@ systemctl --no-pager status stereod || true
 echo "=== the end"
 systemctl stop stereod-multicast
 ip route show 224.0.0.0/4 | grep . && fail "the route stayed"
-for sentence in 'the left camera is absent|the left camera is lost' 'the left camera streams again' 'Watchdog timeout' \
+for sentence in 'left camera: absent|left camera: lost' 'left camera: streaming again' 'Watchdog timeout' \
   "cameras.source: found 'telepathy'"; do
   journal_says "$sentence" || fail "the journal does not say '$sentence'"
 done

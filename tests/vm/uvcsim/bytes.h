@@ -1,4 +1,5 @@
-// Numbers as bytes: USB's are little-endian, those of USB/IP big-endian.
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers as bytes: USB is little-endian, USB/IP big-endian.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,7 @@ inline void put_big(Bytes& bytes, std::uint32_t value) {
   for (int i = 3; i >= 0; --i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
 }
 
-/// What is not there counts as 0.
+/// Bytes beyond the end count as 0.
 inline std::uint32_t get_little(ByteSpan bytes, std::size_t at, std::size_t count) {
   std::uint32_t value = 0;
   for (std::size_t i = 0; i < count && at + i < bytes.size(); ++i) {

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parsing of commands.
 #include "tests/vm/uvcsim/command.h"
 
 #include <array>

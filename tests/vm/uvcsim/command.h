@@ -1,4 +1,5 @@
-// What a test tells the simulated camera, as lines of text.
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands of a test to the simulated camera, as lines of text.
 #pragma once
 
 #include <optional>
@@ -8,18 +9,18 @@
 namespace stereod::uvcsim {
 
 enum class Verb {
-  kUnplug,    ///< pull the plug
-  kPlug,      ///< [PORT]: put it back, into another port if one is given
-  kFreeze,    ///< fall silent without leaving the bus
-  kThaw,      ///< end of that
+  kUnplug,    ///< unplug the camera
+  kPlug,      ///< [PORT]: plug it in again, into another port if one is given
+  kFreeze,    ///< stop delivering frames while plugged in
+  kThaw,      ///< deliver frames again
   kRefuse,    ///< 1 or 0: refuse to start a stream
   kError,     ///< N frames with the error flag
-  kTruncate,  ///< N images cut off in the middle
-  kCorrupt,   ///< N JPEGs with rubbish in the middle
-  kResize,    ///< N JPEGs that say another height than was agreed
-  kPhase,     ///< µs: where in the frame time the next stream begins
-  kDrift,     ///< parts in a million that frames come too late
-  kLight,     ///< % of the light
+  kTruncate,  ///< N images truncated in the middle
+  kCorrupt,   ///< N JPEGs corrupted in the middle
+  kResize,    ///< N JPEGs with another height than negotiated
+  kPhase,     ///< [µs]: phase of the next stream in the frame period
+  kDrift,     ///< [ppm]: by which the frame period is longer
+  kLight,     ///< [%]: light on the scene
   kQuit,
 };
 
@@ -28,8 +29,8 @@ struct Command {
   std::optional<int> number;
 };
 
-/// Reads "VERB [NUMBER]". Nothing if it is no command, lacks its number, or has one too many; `complaint`
-/// then says what is allowed.
+/// Parses "VERB [NUMBER]". Returns nothing if the verb is unknown, or the number is missing or not allowed;
+/// @p complaint then tells what is allowed.
 std::optional<Command> parse_command(std::string_view line, std::string& complaint);
 
 }  // namespace stereod::uvcsim

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Requests to controls, and automatic exposure.
 #include "tests/vm/uvcsim/controls.h"
 
 #include <algorithm>
@@ -11,10 +13,10 @@ namespace {
 constexpr std::uint8_t kExposureMode = 2, kExposurePriority = 3, kExposureTime = 4;
 constexpr std::uint8_t kBrightness = 2, kGain = 4, kPowerLine = 5, kWhiteBalance = 10, kWhiteBalanceAuto = 11;
 
-constexpr std::int32_t kManual = 1, kAperturePriority = 8;  // of the exposure mode
+constexpr std::int32_t kManual = 1, kAperturePriority = 8;  // values of the exposure mode
 constexpr std::int32_t kUsualTime = 156;                    // 100 µs
 constexpr std::uint8_t kWrongState = 4, kNoSuchControl = 6;
-constexpr int kReadable = 1, kWritable = 2, kOverruled = 4, kChanges = 8;  // of its information (4.1.2)
+constexpr int kReadable = 1, kWritable = 2, kOverruled = 4, kChanges = 8;  // bits of GET_INFO (4.1.2)
 
 Bytes number(std::int32_t value, int length) {
   Bytes bytes;
@@ -83,7 +85,7 @@ std::optional<Bytes> Controls::answer(ControlRequest request, std::uint8_t unit,
     case ControlRequest::kGetLength:
       return number(control->length, 2);
     case ControlRequest::kGetInfo: {
-      // The host reads a control that does not say that it changes by itself only once.
+      // The host reads a control only once unless its information has the bit for automatic changes.
       const bool changes = control->unit == kCameraUnit && control->selector == kExposureTime;
       return number(kReadable | kWritable | (automatic(*control) ? kOverruled : 0) | (changes ? kChanges : 0),
                     1);
@@ -98,7 +100,7 @@ void Controls::set_light(int percent) {
   expose_automatically();
 }
 
-// The exposure time that makes up for the light and the gain.
+// Sets the exposure time that compensates light and gain.
 void Controls::expose_automatically() {
   for (Control& control : controls_) {
     if (control.unit != kCameraUnit || control.selector != kExposureTime || !automatic(control)) continue;

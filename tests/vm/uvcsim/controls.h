@@ -1,4 +1,5 @@
-// The simulated camera's controls, and what they do to the image.
+// SPDX-License-Identifier: BSD-3-Clause
+// The simulated camera's controls and their effect on the image.
 #pragma once
 
 #include <array>
@@ -21,22 +22,24 @@ enum class ControlRequest : std::uint8_t {
   kGetDefault = 0x87,
 };
 
+/// Exposure, gain, brightness, white balance and power line frequency.
 class Controls {
  public:
   Controls();
 
-  /// Answers a request to a unit's control. Nothing: refused, and error_code() says why.
+  /// Answers a request to a unit's control. Returns nothing if the request is refused; error_code() tells
+  /// why.
   std::optional<Bytes> answer(ControlRequest request, std::uint8_t unit, std::uint8_t selector,
                               ByteSpan data);
 
-  /// Why the last request was refused (USB Video Class 1.5, table 4-7): 0 not at all, 4 wrong state, 6 no
-  /// such control.
+  /// Returns why the last request was refused (USB Video Class 1.5, table 4-7): 0 = not refused, 4 = wrong
+  /// state, 6 = no such control.
   std::uint8_t error_code() const { return error_code_; }
 
-  /// The light that falls on the scene, % of what the defaults are made for. Automatic exposure follows it.
+  /// Sets the light on the scene [% of the light that suits the defaults]. Automatic exposure follows it.
   void set_light(int percent);
 
-  /// By how much the scene's brightness is multiplied, in 1/64, and what is added to it.
+  /// Return the factor of the scene's brightness [1/64] and its offset.
   int gain_64() const;
   int offset() const;
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Assembling descriptors.
 #include "tests/vm/uvcsim/descriptors.h"
 
 #include <array>
@@ -12,7 +14,7 @@ constexpr std::uint8_t kConfiguration = 2, kInterface = 4, kEndpoint = 5, kAssoc
                        kClassSpecific = 0x24;
 constexpr std::uint8_t kVideo = 14, kVideoControl = 1, kVideoStreaming = 2, kVideoCollection = 3;
 
-// A descriptor: its length in front, then its bytes.
+// A descriptor: its length, then its bytes.
 class Descriptor {
  public:
   explicit Descriptor(std::initializer_list<std::uint8_t> bytes) {
@@ -75,7 +77,7 @@ void control_interface(Bytes& to) {
 void sizes(Bytes& to, std::uint8_t subtype) {
   std::uint8_t number = 0;
   for (const Size size : kSizes) {
-    const std::uint32_t bytes = bytes_at_most(size);
+    const std::uint32_t bytes = max_image_bytes(size);
     Descriptor d{kClassSpecific, subtype, ++number, 0};
     d.u16(static_cast<std::uint32_t>(size.width)).u16(static_cast<std::uint32_t>(size.height));
     d.u32(bytes * 8 * 10).u32(bytes * 8 * 30).u32(bytes);

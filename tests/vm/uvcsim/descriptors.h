@@ -1,4 +1,5 @@
-// What the simulated camera tells the host that it is (USB 2.0 chapter 9, USB Video Class 1.0 chapter 3).
+// SPDX-License-Identifier: BSD-3-Clause
+// The simulated camera's descriptors (USB 2.0 chapter 9, USB Video Class 1.0 chapter 3).
 #pragma once
 
 #include <string>
@@ -7,16 +8,16 @@
 
 namespace stereod::uvcsim {
 
-/// The endpoint that images come from.
+/// The endpoint of the image stream.
 constexpr std::uint8_t kStreamEndpoint = 1;
-/// The numbers of the interfaces, and of the units that have controls.
+/// Numbers of the interfaces and of the units with controls.
 constexpr std::uint8_t kControlInterface = 0, kStreamInterface = 1;
 constexpr std::uint8_t kCameraUnit = 1, kProcessingUnit = 2;
 
 Bytes device_descriptor();
-/// The configuration with all its interfaces: a camera, its processing unit and a bulk stream.
+/// Returns the configuration with all its interfaces: a camera, its processing unit and a bulk stream.
 Bytes configuration_descriptor();
-/// String `number`: 1 manufacturer, 2 product, 3 `serial` (ASCII); 0 is the list of languages.
+/// Returns string @p number: 0 = list of languages, 1 = manufacturer, 2 = product, 3 = @p serial (ASCII).
 Bytes string_descriptor(int number, const std::string& serial);
 
 }  // namespace stereod::uvcsim

@@ -1,5 +1,6 @@
-// loopback-feed: known stereo pairs as YUYV or RGB through two v4l2loopback devices, and as files to compare
-// with.
+// SPDX-License-Identifier: BSD-3-Clause
+// loopback-feed: plays known stereo pairs as YUYV or RGB through two v4l2loopback devices, and writes them as
+// files for comparison.
 #include <fcntl.h>
 #include <linux/videodev2.h>
 #include <sys/ioctl.h>
@@ -25,16 +26,16 @@ namespace {
 
 constexpr Size kSize{640, 480};
 
-void write_pgm(const std::string& path, const GrayImage& picture) {
+void write_pgm(const std::string& path, const GrayImage& image) {
   std::ofstream file(path, std::ios::binary);
-  file << "P5\n" << picture.width() << ' ' << picture.height() << "\n255\n";
-  for (int y = 0; y < picture.height(); ++y) {
-    file.write(reinterpret_cast<const char*>(picture.row(y)), picture.width());
+  file << "P5\n" << image.width() << ' ' << image.height() << "\n255\n";
+  for (int y = 0; y < image.height(); ++y) {
+    file.write(reinterpret_cast<const char*>(image.row(y)), image.width());
   }
-  if (!file.flush()) throw std::runtime_error(path + " cannot be written");
+  if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
-/// pair-0-left.pgm, pair-0-right.pgm and so on.
+/// Writes pair-0-left.pgm, pair-0-right.pgm and so on.
 void write_pairs(const std::string& directory) {
   for (int frame = 0; frame < kSceneFrames; ++frame) {
     const std::string start = directory + "/pair-" + std::to_string(frame);
@@ -43,10 +44,10 @@ void write_pairs(const std::string& directory) {
   }
 }
 
-Bytes rgb_bytes(const GrayImage& picture) {
+Bytes rgb_bytes(const GrayImage& image) {
   Bytes bytes;
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) bytes.insert(bytes.end(), 3, picture.row(y)[x]);
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) bytes.insert(bytes.end(), 3, image.row(y)[x]);
   }
   return bytes;
 }
@@ -69,19 +70,19 @@ int open_output(const std::string& device, bool rgb) {
 }
 
 [[noreturn]] void feed(const std::array<std::string, 2>& devices, double fps, bool rgb) {
-  std::array<std::vector<Bytes>, 2> pictures;
+  std::array<std::vector<Bytes>, 2> images;
   std::array<int, 2> files{};
   for (std::size_t side = 0; side < 2; ++side) {
     files[side] = open_output(devices[side], rgb);
     for (int frame = 0; frame < kSceneFrames; ++frame) {
-      const GrayImage picture = render_scene(side == 0 ? Eye::kLeft : Eye::kRight, kSize, frame);
-      pictures[side].push_back(rgb ? rgb_bytes(picture) : yuyv_bytes(picture));
+      const GrayImage image = render_scene(side == 0 ? Eye::kLeft : Eye::kRight, kSize, frame);
+      images[side].push_back(rgb ? rgb_bytes(image) : yuyv_bytes(image));
     }
   }
   auto next = std::chrono::steady_clock::now();
   for (std::size_t frame = 0;; ++frame) {
     for (std::size_t side = 0; side < 2; ++side) {
-      const Bytes& bytes = pictures[side][frame % kSceneFrames];
+      const Bytes& bytes = images[side][frame % kSceneFrames];
       if (::write(files[side], bytes.data(), bytes.size()) < 0) {
         throw std::system_error(errno, std::generic_category(), devices[side]);
       }
@@ -101,7 +102,7 @@ int main_with(int argc, char** argv) {
   app.add_option("--right", devices[1], "device of the right images")->required();
   app.add_option("--pairs", directory, "existing directory for the pairs as files")->required();
   app.add_option("--fps", fps, "pairs a second")->check(CLI::Range(0.1, 120.0));
-  app.add_flag("--rgb", rgb, "as RGB, not as YUYV");
+  app.add_flag("--rgb", rgb, "RGB instead of YUYV");
   CLI11_PARSE(app, argc, argv);
   write_pairs(directory);
   feed(devices, fps, rgb);

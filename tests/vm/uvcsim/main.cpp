@@ -1,4 +1,5 @@
-// uvcsim: a USB webcam in software, plugged into this machine's virtual USB controller.
+// SPDX-License-Identifier: BSD-3-Clause
+// uvcsim: a USB webcam in software, plugged into the virtual USB controller.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
@@ -24,15 +25,15 @@ std::int64_t monotonic_ns() {
   return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
-// A named pipe that commands come through, a line each.
+// A named pipe for commands, one a line.
 class CommandPipe {
  public:
   explicit CommandPipe(const std::string& path) {
     ::unlink(path.c_str());
-    // Opened for both, it never ends when a writer goes.
+    // Opened for reading and writing, so that it does not end when a writer closes it.
     if (::mkfifo(path.c_str(), 0600) != 0 ||
         (file_ = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC)) < 0) {
-      throw std::runtime_error("the pipe " + path + " cannot be made");
+      throw std::runtime_error(path + ": cannot be created");
     }
   }
   ~CommandPipe() { ::close(file_); }
@@ -41,7 +42,7 @@ class CommandPipe {
 
   int descriptor() const { return file_; }
 
-  /// Takes what has come; calls obey(line) for each whole line.
+  /// Reads what is available and calls obey(line) for each complete line.
   template <typename Obey>
   void read_lines(Obey obey) {
     std::array<char, 256> bytes{};
@@ -59,7 +60,7 @@ class CommandPipe {
   std::string text_;
 };
 
-// Waits for the host, a command, or the time of the next frame.
+// Blocks until a message of the host, a command, or the time of the next frame.
 std::array<pollfd, 2> wait(const Webcam& webcam, const CommandPipe& pipe) {
   std::array<pollfd, 2> ready{{{webcam.descriptor(), POLLIN, 0}, {pipe.descriptor(), POLLIN, 0}}};
   timespec left{};
@@ -89,14 +90,14 @@ void serve(Webcam& webcam, CommandPipe& pipe) {
 }
 
 int main_with(int argc, char** argv) {
-  CLI::App app("uvcsim: a USB webcam in software, on this machine's virtual USB controller (vhci-hcd).");
+  CLI::App app("uvcsim: a USB webcam in software, on the virtual USB controller (vhci-hcd).");
   WebcamOptions options;
   std::string control;
   bool right = false;
-  app.add_option("--port", options.port, "of the virtual controller")->check(CLI::Range(0, 7));
-  app.add_option("--serial", options.serial, "number of the camera");
-  app.add_flag("--right", right, "see what the right eye sees");
-  app.add_option("--control", control, "named pipe for commands; it is made")->required();
+  app.add_option("--port", options.port, "port of the virtual controller")->check(CLI::Range(0, 7));
+  app.add_option("--serial", options.serial, "serial number of the camera");
+  app.add_flag("--right", right, "show the right view");
+  app.add_option("--control", control, "named pipe for commands; created at start")->required();
   CLI11_PARSE(app, argc, argv);
   if (right) options.eye = Eye::kRight;
   CommandPipe pipe(control);

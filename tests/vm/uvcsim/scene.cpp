@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rendering of the scene.
 #include "tests/vm/uvcsim/scene.h"
 
 #include <algorithm>
@@ -8,7 +10,7 @@ namespace stereod::uvcsim {
 int scene_disparity(int row) { return 8 * (1 + row / 60 % 4); }
 
 std::uint8_t scene_brightness(Eye eye, int x, int y, int frame) {
-  constexpr int kBlock = 8;  // px; as JPEG's, so that little is lost and files are small
+  constexpr int kBlock = 8;  // [px] like JPEG's blocks, so that little is lost and files are small
   const int shift = eye == Eye::kRight ? scene_disparity(y) : 0;
   const auto column = static_cast<std::uint32_t>((x + shift) / kBlock);
   const auto row = static_cast<std::uint32_t>(y / kBlock + frame % kSceneFrames);
@@ -24,20 +26,20 @@ GrayImage render_scene(Eye eye, Size size, int frame, int gain_64, int offset) {
     exposed[static_cast<std::size_t>(value)] =
         static_cast<std::uint8_t>(std::clamp(value * gain_64 / 64 + offset, 0, 255));
   }
-  GrayImage picture(size);
+  GrayImage image(size);
   for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) picture.row(y)[x] = exposed[scene_brightness(eye, x, y, frame)];
+    for (int x = 0; x < size.width; ++x) image.row(y)[x] = exposed[scene_brightness(eye, x, y, frame)];
   }
-  return picture;
+  return image;
 }
 
-Bytes yuyv_bytes(const GrayImage& picture) {
+Bytes yuyv_bytes(const GrayImage& image) {
   constexpr std::uint8_t kNoColor = 128;
   Bytes bytes;
-  bytes.reserve(static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(picture.height()) * 2);
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) {
-      bytes.push_back(picture.row(y)[x]);
+  bytes.reserve(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()) * 2);
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      bytes.push_back(image.row(y)[x]);
       bytes.push_back(kNoColor);
     }
   }

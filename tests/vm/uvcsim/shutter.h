@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // When the simulated camera exposes its frames.
 #pragma once
 
@@ -5,17 +6,16 @@
 
 namespace stereod::uvcsim {
 
-/// A crystal of its own. Its times are those of CLOCK_MONOTONIC in ns.
+/// The camera's own crystal. Times are CLOCK_MONOTONIC [ns].
 ///
-/// A stream begins where the camera happens to be when it is started: its first frame comes a fixed time
-/// after that. Only a stream before which a phase was set begins at that phase of the clock, so that a test
-/// knows how far apart two cameras start.
+/// The first frame of a stream comes a fixed time after the start. If a phase was set before the start, the
+/// first frame comes at that phase of the clock, so that a test knows the skew of two cameras.
 class Shutter {
  public:
   static constexpr std::int64_t kStartTime = 60'000'000;  ///< from the start of a stream to its first frame
 
   void set_phase(std::int64_t phase_ns) { phase_ns_ = phase_ns, phase_set_ = true; }
-  /// Parts in a million by which frames come later than they should.
+  /// Sets by how much the frame period is longer [ppm].
   void set_drift(std::int64_t ppm) { drift_ppm_ = ppm; }
 
   void start(std::int64_t now_ns, std::int64_t frame_time_ns) {
@@ -27,10 +27,10 @@ class Shutter {
   }
 
   std::int64_t due_ns() const { return due_ns_; }
-  /// Frames since the start, the ones that nobody fetched included.
+  /// Returns the number of frames since the start, including those that the host did not fetch.
   std::int64_t frame() const { return frame_; }
 
-  /// The next frame after now.
+  /// Advances to the next frame after @p now_ns.
   void advance(std::int64_t now_ns) {
     const std::int64_t interval = frame_time_ns_ + frame_time_ns_ * drift_ppm_ / 1'000'000;
     const std::int64_t frames = now_ns < due_ns_ ? 1 : (now_ns - due_ns_) / interval + 1;

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Negotiation.
 #include "tests/vm/uvcsim/stream_format.h"
 
 #include <algorithm>
@@ -26,7 +28,7 @@ Bytes negotiation_bytes(const StreamFormat& format) {
   put_little(bytes, static_cast<std::uint32_t>(size - kSizes.begin() + 1), 1);
   put_little(bytes, format.frame_time, 4);
   for (int i = 0; i < 5; ++i) put_little(bytes, 0, 2);  // key frames, compression, window, delay
-  put_little(bytes, bytes_at_most(format.size), 4);
+  put_little(bytes, max_image_bytes(format.size), 4);
   put_little(bytes, kPayloadBytes, 4);
   return bytes;
 }

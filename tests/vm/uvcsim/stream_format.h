@@ -1,4 +1,5 @@
-// What the simulated camera can stream, and the negotiation about it (USB Video Class 1.0, 4.3.1.1).
+// SPDX-License-Identifier: BSD-3-Clause
+// The formats of the simulated camera and their negotiation (USB Video Class 1.0, 4.3.1.1).
 #pragma once
 
 #include <array>
@@ -9,18 +10,18 @@
 
 namespace stereod::uvcsim {
 
-/// The value is the number of the format's descriptor.
+/// Values are the numbers of the format descriptors.
 enum class Encoding : std::uint8_t { kYuyv = 1, kMjpeg = 2 };
 
 constexpr std::array<Size, 2> kSizes{Size{640, 480}, Size{320, 240}};
 /// Frame times in units of 100 ns: 30, 20, 15 and 10 frames a second.
 constexpr std::array<std::uint32_t, 4> kFrameTimes{333'333, 500'000, 666'666, 1'000'000};
 
-constexpr std::uint32_t bytes_at_most(Size size) {
+constexpr std::uint32_t max_image_bytes(Size size) {
   return static_cast<std::uint32_t>(size.width * size.height * 2);
 }
 
-/// One payload, and so one transfer of the kernel's.
+/// Size of one payload, which is one transfer of the kernel.
 constexpr std::uint32_t kPayloadBytes = 16384;
 constexpr std::size_t kNegotiationBytes = 26;
 
@@ -30,7 +31,7 @@ struct StreamFormat {
   std::uint32_t frame_time = kFrameTimes[0];  ///< 100 ns
 };
 
-/// What comes nearest to the host's wish.
+/// Returns the format nearest to the host's request.
 StreamFormat negotiated(ByteSpan wish);
 Bytes negotiation_bytes(const StreamFormat& format);
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Attaching to vhci-hcd, and the socket.
 #include "tests/vm/uvcsim/usb_port.h"
 
 #include <fcntl.h>
@@ -16,9 +18,9 @@ namespace {
 
 constexpr const char* kAttach = "/sys/devices/platform/vhci_hcd.0/attach";
 constexpr int kHighSpeed = 3;  // enum usb_device_speed
-constexpr int kTries = 100;
+constexpr int kAttempts = 100;
 
-// Hands a socket to the kernel. Errno.
+// Gives a socket to the kernel. Returns 0 or an errno value.
 int attach(int port, int socket) {
   const int file = ::open(kAttach, O_WRONLY | O_CLOEXEC);
   if (file < 0) return errno;
@@ -37,10 +39,10 @@ void UsbPort::plug(int number) {
   if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) != 0) {
     throw std::system_error(errno, std::generic_category(), "socketpair");
   }
-  const int room = 4 << 20;  // a frame and more
+  const int room = 4 << 20;  // more than a frame
   ::setsockopt(ends[0], SOL_SOCKET, SO_SNDBUF, &room, sizeof room);
   int error = attach(number, ends[1]);
-  for (int i = 0; i < kTries && (error == EBUSY || error == EINVAL); ++i) {
+  for (int i = 0; i < kAttempts && (error == EBUSY || error == EINVAL); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     error = attach(number, ends[1]);
   }

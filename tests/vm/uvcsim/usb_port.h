@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A port of the kernel's virtual USB host controller (vhci-hcd).
 #pragma once
 
@@ -7,7 +8,7 @@
 
 namespace stereod::uvcsim {
 
-/// What is plugged in there speaks USB/IP over a socket with the kernel. One thread.
+/// Plugs a simulated device into a port; the device speaks USB/IP with the kernel over a socket. One thread.
 class UsbPort {
  public:
   UsbPort() = default;
@@ -15,15 +16,15 @@ class UsbPort {
   UsbPort(const UsbPort&) = delete;
   UsbPort& operator=(const UsbPort&) = delete;
 
-  /// Plugs in at port `number`, from 0; waits up to 5 s for what was plugged in before to be gone. Throws
-  /// std::system_error.
+  /// Plugs in at port @p number [≥ 0]. Waits up to 5 s until the kernel has removed the previous device.
+  /// @throws std::system_error
   void plug(int number);
   void unplug();
   bool plugged() const { return socket_ >= 0; }
   int descriptor() const { return socket_; }
 
-  /// The next message of the host's and the bytes that come with it; nothing once the kernel has hung up, and
-  /// then it is unplugged. Call it when the descriptor is readable.
+  /// Returns the host's next message and its data. Returns nothing, and unplugs, when the kernel has closed
+  /// the connection. Call it when the descriptor is readable.
   struct Received {
     UsbipMessage message;
     Bytes data;

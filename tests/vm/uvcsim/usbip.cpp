@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Encoding and parsing of USB/IP.
 #include "tests/vm/uvcsim/usbip.h"
 
 #include <cerrno>
@@ -12,7 +14,7 @@ SetupPacket parse_setup(ByteSpan bytes) {
   return {bytes[0], bytes[1], word(2), word(4), word(6)};
 }
 
-// Device, direction and endpoint are not looked at in an answer.
+// The kernel ignores device, direction and endpoint in an answer.
 Bytes reply_header(std::uint32_t command, std::uint32_t sequence, int status, std::uint32_t transferred) {
   Bytes bytes;
   put_big(bytes, command);

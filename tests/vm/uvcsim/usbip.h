@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The USB/IP protocol between a device and the kernel's virtual host controller
 // (Documentation/usb/usbip_protocol.rst).
 #pragma once
@@ -26,22 +27,22 @@ struct UsbipMessage {
   std::uint32_t sequence = 0;
   std::uint32_t endpoint = 0;
   bool to_host = false;
-  std::uint32_t length = 0;    ///< of the transfer's buffer
+  std::uint32_t length = 0;    ///< [bytes] of the transfer's buffer
   SetupPacket setup;           ///< for endpoint 0
-  std::uint32_t unlinked = 0;  ///< the sequence number to forget
+  std::uint32_t unlinked = 0;  ///< sequence number of the request to cancel
 
-  /// Bytes that follow the header: what the host sends.
+  /// Returns the number of bytes that follow the header: the data that the host sends.
   std::uint32_t payload() const { return kind == Kind::kSubmit && !to_host ? length : 0; }
 };
 
-/// Reads a header of kUsbipHeader bytes; nothing if it is neither a submit nor an unlink.
+/// Parses a header of kUsbipHeader bytes. Returns nothing if it is neither a submit nor an unlink.
 std::optional<UsbipMessage> parse_usbip(ByteSpan header);
 
-/// The answer to a submit: `status` 0 or a negative errno; `transferred` counts what the host sent or `data`,
-/// which follows if it goes to the host.
+/// Returns the answer to a submit. @p status: 0 or a negative errno value. @p transferred: number of bytes
+/// that the host sent or that follow in @p data.
 Bytes submit_reply(std::uint32_t sequence, int status, std::uint32_t transferred, ByteSpan data);
 
-/// The answer to an unlink: whether the request was still waiting.
+/// Returns the answer to an unlink. @p found: the request was still waiting.
 Bytes unlink_reply(std::uint32_t sequence, bool found);
 
 }  // namespace stereod::uvcsim

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The simulated webcam's parts, without a kernel.
 #include <gmock/gmock.h>
 #include <turbojpeg.h>
@@ -7,8 +8,8 @@
 #include "tests/vm/uvcsim/command.h"
 #include "tests/vm/uvcsim/controls.h"
 #include "tests/vm/uvcsim/descriptors.h"
-#include "tests/vm/uvcsim/pictures.h"
 #include "tests/vm/uvcsim/scene.h"
+#include "tests/vm/uvcsim/scene_images.h"
 #include "tests/vm/uvcsim/shutter.h"
 #include "tests/vm/uvcsim/stream_format.h"
 #include "tests/vm/uvcsim/usbip.h"
@@ -27,7 +28,7 @@ bool set(Controls& controls, std::uint8_t unit, std::uint8_t selector, std::uint
   return controls.answer(ControlRequest::kSetCurrent, unit, selector, data).has_value();
 }
 
-TEST(UvcsimDescriptors, LengthsLeadFromOneToTheNextAndAddUp) {
+TEST(UvcsimDescriptors, Lengths_AddUp) {
   const Bytes bytes = configuration_descriptor();
   EXPECT_EQ(get_little(bytes, 2, 2), bytes.size());
   std::size_t at = 0, endpoints = 0, frames = 0;
@@ -42,13 +43,13 @@ TEST(UvcsimDescriptors, LengthsLeadFromOneToTheNextAndAddUp) {
   EXPECT_EQ(frames, 2 * kSizes.size());
 }
 
-TEST(UvcsimDescriptors, DeviceAndStrings) {
+TEST(UvcsimDescriptors, DeviceAndStrings_Correct) {
   EXPECT_EQ(device_descriptor().size(), 18U);
   EXPECT_EQ(string_descriptor(3, "A1"), (Bytes{6, 3, 'A', 0, '1', 0}));
   EXPECT_EQ(string_descriptor(0, "A1"), (Bytes{4, 3, 9, 4}));
 }
 
-TEST(UvcsimUsbip, SubmitIsReadAndAnswered) {
+TEST(UvcsimUsbip, Submit_ReadAndAnswered) {
   Bytes header;
   for (const std::uint32_t word : {1U, 7U, 65537U, 1U, 0U, 0U, 18U, 0U, 0U, 0U}) put_big(header, word);
   header.insert(header.end(), {0x80, 6, 0, 1, 2, 3, 18, 0});
@@ -69,7 +70,7 @@ TEST(UvcsimUsbip, SubmitIsReadAndAnswered) {
   EXPECT_EQ(get_big(reply, 24), 2U);
 }
 
-TEST(UvcsimUsbip, UnlinkIsReadAndRubbishIsNot) {
+TEST(UvcsimUsbip, Unlink_ReadAndRubbishRefused) {
   Bytes header;
   for (const std::uint32_t word : {2U, 9U, 0U, 0U, 0U, 7U}) put_big(header, word);
   header.resize(kUsbipHeader);
@@ -83,7 +84,7 @@ TEST(UvcsimUsbip, UnlinkIsReadAndRubbishIsNot) {
   EXPECT_FALSE(parse_usbip(Bytes(3)));
 }
 
-TEST(UvcsimFormat, TheNearestIsAgreedUpon) {
+TEST(UvcsimFormat, Request_NearestNegotiated) {
   const StreamFormat wish{Encoding::kYuyv, {320, 240}, 600'000};
   const StreamFormat agreed = negotiated(negotiation_bytes(wish));
   EXPECT_EQ(agreed.encoding, Encoding::kYuyv);
@@ -93,7 +94,7 @@ TEST(UvcsimFormat, TheNearestIsAgreedUpon) {
   EXPECT_EQ(negotiated(Bytes(kNegotiationBytes, 0xff)).size, kSizes[0]);
 }
 
-TEST(UvcsimControls, ExposureTimeIsRefusedWhileItIsAutomatic) {
+TEST(UvcsimControls, AutoExposure_ExposureTimeRefused) {
   Controls controls;
   EXPECT_FALSE(set(controls, kCameraUnit, kExposureTime, 40, 4));
   EXPECT_EQ(controls.error_code(), 4);
@@ -107,7 +108,7 @@ TEST(UvcsimControls, ExposureTimeIsRefusedWhileItIsAutomatic) {
   EXPECT_EQ(controls.error_code(), 6);
 }
 
-TEST(UvcsimControls, AutomaticExposureMakesUpForTheLight) {
+TEST(UvcsimControls, AutoExposure_CompensatesLight) {
   Controls controls;
   controls.set_light(50);
   EXPECT_EQ(controls.gain_64(), 64);
@@ -119,7 +120,7 @@ TEST(UvcsimControls, AutomaticExposureMakesUpForTheLight) {
   EXPECT_EQ(controls.gain_64(), 128);
 }
 
-TEST(UvcsimScene, TheRightEyeSeesEverythingShiftedByTheDisparity) {
+TEST(UvcsimScene, RightEye_ShiftedByDisparity) {
   for (const int y : {0, 59, 60, 200, 479}) {
     const int d = scene_disparity(y);
     EXPECT_GE(d, 8);
@@ -130,15 +131,15 @@ TEST(UvcsimScene, TheRightEyeSeesEverythingShiftedByTheDisparity) {
   }
 }
 
-TEST(UvcsimScene, FramesDifferAndRepeat) {
+TEST(UvcsimScene, Frames_DifferAndRepeat) {
   EXPECT_EQ(scene_brightness(Eye::kLeft, 5, 5, 1), scene_brightness(Eye::kLeft, 5, 5, 1 + kSceneFrames));
   EXPECT_NE(scene_brightness(Eye::kLeft, 5, 5, 1), scene_brightness(Eye::kLeft, 5, 5, 2));
   EXPECT_EQ(render_scene(Eye::kLeft, {64, 48}, 0, 0, 7).row(3)[3], 7);
 }
 
-TEST(UvcsimPictures, JpegsLackHuffmanTablesAndCanBeReadAllTheSame) {
-  const GrayImage picture = render_scene(Eye::kLeft, {320, 240}, 1);
-  const Bytes jpeg = webcam_jpeg(picture);
+TEST(UvcsimImages, JpegWithoutTables_Decodable) {
+  const GrayImage image = render_scene(Eye::kLeft, {320, 240}, 1);
+  const Bytes jpeg = webcam_jpeg(image);
   for (std::size_t i = 0; i + 1 < jpeg.size() && jpeg[i + 1] != 0xda; ++i) {
     ASSERT_FALSE(jpeg[i] == 0xff && jpeg[i + 1] == 0xc4);
   }
@@ -148,7 +149,7 @@ TEST(UvcsimPictures, JpegsLackHuffmanTablesAndCanBeReadAllTheSame) {
     return tjDecompress2(decoder.get(), bytes.data(), bytes.size(), gray.data(), 320, 320, 240, TJPF_GRAY, 0);
   };
   ASSERT_EQ(decode(jpeg), 0) << tjGetErrorStr2(decoder.get());
-  EXPECT_NEAR(gray[100 * 320 + 100], picture.row(100)[100], 12);
+  EXPECT_NEAR(gray[100 * 320 + 100], image.row(100)[100], 12);
 
   Bytes damaged = jpeg;
   corrupt_jpeg(damaged);
@@ -162,7 +163,7 @@ TEST(UvcsimPictures, JpegsLackHuffmanTablesAndCanBeReadAllTheSame) {
   EXPECT_EQ(height, 256);
 }
 
-TEST(UvcsimShutter, PhaseHoldsForTheFirstStreamOnly) {
+TEST(UvcsimShutter, Phase_FirstStreamOnly) {
   constexpr std::int64_t kFrame = 33'333'300;
   Shutter shutter;
   shutter.set_phase(16'000'000);
@@ -173,7 +174,7 @@ TEST(UvcsimShutter, PhaseHoldsForTheFirstStreamOnly) {
   EXPECT_EQ(shutter.due_ns(), 2'000'000'000 + Shutter::kStartTime);
 }
 
-TEST(UvcsimShutter, DriftAddsUpAndMissedFramesAreSkipped) {
+TEST(UvcsimShutter, Drift_AddsUpMissedFramesSkipped) {
   constexpr std::int64_t kFrame = 10'000'000;
   Shutter shutter;
   shutter.set_drift(100);
@@ -186,7 +187,7 @@ TEST(UvcsimShutter, DriftAddsUpAndMissedFramesAreSkipped) {
   EXPECT_EQ(shutter.frame(), 1005);
 }
 
-TEST(UvcsimCommand, IsReadOrComplainedAbout) {
+TEST(UvcsimCommand, Line_ParsedOrRefused) {
   std::string complaint;
   ASSERT_TRUE(parse_command("unplug", complaint));
   const auto plug = parse_command("plug 3", complaint);

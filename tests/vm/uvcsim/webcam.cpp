@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Control requests, streaming, and damage on command.
 #include "tests/vm/uvcsim/webcam.h"
 
 #include <algorithm>
@@ -21,11 +23,11 @@ constexpr std::uint8_t kEndOfHeader = 0x80, kError = 0x40, kEndOfFrame = 0x02;
 
 }  // namespace
 
-Webcam::Webcam(const WebcamOptions& options) : options_(options), pictures_(options.eye) { plug(); }
+Webcam::Webcam(const WebcamOptions& options) : options_(options), images_(options.eye) { plug(); }
 
 void Webcam::plug() {
   stop();
-  controls_ = Controls();  // what is plugged in anew has forgotten everything
+  controls_ = Controls();  // a camera forgets its controls when it is unplugged
   port_.plug(options_.port);
 }
 
@@ -124,7 +126,7 @@ std::optional<Bytes> Webcam::standard_request(const SetupPacket& setup) {
       return Bytes{1};
     case kGetInterface:
       return Bytes{0};
-    case kClearFeature:  // the driver's way to end a bulk stream
+    case kClearFeature:  // ends a bulk stream
       if ((setup.type & kRecipientMask) == kToEndpoint) streaming_ = sending_ = false;
       return Bytes{};
     case kSetFeature:
@@ -156,7 +158,7 @@ std::optional<Bytes> Webcam::stream_request(const SetupPacket& setup, ByteSpan d
       } else {
         if (refusing_) return std::nullopt;
         format_ = negotiated(data);
-        pictures_.prepare(format_, controls_.gain_64(), controls_.offset());
+        images_.prepare(format_, controls_.gain_64(), controls_.offset());
         shutter_.start(now_ns, std::int64_t{format_.frame_time} * 100);
         streaming_ = true;
       }
@@ -174,7 +176,7 @@ std::optional<std::int64_t> Webcam::due_ns() const {
   return streaming_ ? std::optional<std::int64_t>(shutter_.due_ns()) : std::nullopt;
 }
 
-// A frame that nobody waits for is lost, as in a real camera.
+// A frame without a waiting request is lost, as in a real camera.
 void Webcam::expose(std::int64_t now_ns) {
   if (!streaming_ || now_ns < shutter_.due_ns()) return;
   if (!frozen_ && !sending_ && !waiting_.empty()) begin_frame();
@@ -183,14 +185,14 @@ void Webcam::expose(std::int64_t now_ns) {
 }
 
 void Webcam::begin_frame() {
-  picture_ = pictures_.get(format_, shutter_.frame(), controls_.gain_64(), controls_.offset());
+  frame_bytes_ = images_.get(format_, shutter_.frame(), controls_.gain_64(), controls_.offset());
   marked_bad_ = false;
   if (damage_.frames > 0) {
     --damage_.frames;
     if (damage_.kind == Verb::kError) marked_bad_ = true;
-    if (damage_.kind == Verb::kTruncate) picture_.resize(picture_.size() / 2);
-    if (damage_.kind == Verb::kCorrupt) corrupt_jpeg(picture_);
-    if (damage_.kind == Verb::kResize) change_jpeg_height(picture_, 16);
+    if (damage_.kind == Verb::kTruncate) frame_bytes_.resize(frame_bytes_.size() / 2);
+    if (damage_.kind == Verb::kCorrupt) corrupt_jpeg(frame_bytes_);
+    if (damage_.kind == Verb::kResize) change_jpeg_height(frame_bytes_, 16);
   }
   sent_ = 0;
   sending_ = true;
@@ -203,11 +205,11 @@ void Webcam::send_waiting() {
     const Waiting request = waiting_.front();
     waiting_.pop_front();
     const std::size_t room = std::min<std::size_t>(request.length, kPayloadBytes) - kHeader;
-    const std::size_t count = std::min(room, picture_.size() - sent_);
-    const bool last = sent_ + count == picture_.size();
+    const std::size_t count = std::min(room, frame_bytes_.size() - sent_);
+    const bool last = sent_ + count == frame_bytes_.size();
     Bytes payload{kHeader, static_cast<std::uint8_t>(kEndOfHeader | frame_id_ | (marked_bad_ ? kError : 0) |
                                                      (last ? kEndOfFrame : 0))};
-    const auto from = picture_.begin() + static_cast<std::ptrdiff_t>(sent_);
+    const auto from = frame_bytes_.begin() + static_cast<std::ptrdiff_t>(sent_);
     payload.insert(payload.end(), from, from + static_cast<std::ptrdiff_t>(count));
     sent_ += count;
     sending_ = !last;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The simulated camera itself.
 #pragma once
 
@@ -8,7 +9,7 @@
 
 #include "tests/vm/uvcsim/command.h"
 #include "tests/vm/uvcsim/controls.h"
-#include "tests/vm/uvcsim/pictures.h"
+#include "tests/vm/uvcsim/scene_images.h"
 #include "tests/vm/uvcsim/shutter.h"
 #include "tests/vm/uvcsim/usb_port.h"
 
@@ -20,21 +21,23 @@ struct WebcamOptions {
   Eye eye = Eye::kLeft;
 };
 
-/// Times are CLOCK_MONOTONIC, ns. One thread: handle() when the port's descriptor is readable, expose() when
-/// a frame is due, obey() for commands.
+/// A webcam with MJPEG and YUYV, plugged into a virtual port. Times are CLOCK_MONOTONIC [ns]. One thread
+/// calls handle() when the port's descriptor is readable, expose() when a frame is due, and obey() for
+/// commands.
 class Webcam {
  public:
   explicit Webcam(const WebcamOptions& options);
 
-  /// -1 while it is unplugged.
+  /// Returns -1 while unplugged.
   int descriptor() const { return port_.descriptor(); }
   void handle(std::int64_t now_ns);
 
-  /// When expose() has something to do; nothing while it does not stream.
+  /// Returns when the next frame is due; nothing while the camera does not stream.
   std::optional<std::int64_t> due_ns() const;
   void expose(std::int64_t now_ns);
 
-  /// False: it is to end. Throws std::system_error where a port cannot be had.
+  /// Executes a command. Returns false if the program is to end. @throws std::system_error if a port is not
+  /// available.
   bool obey(const Command& command);
 
  private:
@@ -58,17 +61,17 @@ class Webcam {
 
   WebcamOptions options_;
   Controls controls_;
-  Pictures pictures_;
+  SceneImages images_;
   Shutter shutter_;
   UsbPort port_;
   StreamFormat probed_, format_;
   bool streaming_ = false, frozen_ = false, refusing_ = false;
   Damage damage_;
-  std::deque<Waiting> waiting_;  // the kernel's requests for images
-  Bytes picture_;                // of the frame that is being sent
+  std::deque<Waiting> waiting_;  // the kernel's requests for payloads
+  Bytes frame_bytes_;            // the frame that is being sent
   std::size_t sent_ = 0;
   bool sending_ = false, marked_bad_ = false;
-  std::uint8_t frame_id_ = 0;  // alternates, so that the host sees where frames begin
+  std::uint8_t frame_id_ = 0;  // alternates, so that the host recognizes the begin of a frame
 };
 
 }  // namespace stereod::uvcsim

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Raw images of an LCM log as cameras.
 #include "daemon/capture/replay/log_source.h"
 
 #include <gmock/gmock.h>
@@ -5,6 +7,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,7 +33,7 @@ image_t image_of(std::int64_t utime, int value, int width = 64, int height = 48)
   return image;
 }
 
-class LogSourceTest : public testing::Test {
+class LogSource : public testing::Test {
  protected:
   void write(const char* channel, const image_t& image, std::size_t cut = 0) {
     std::vector<std::byte> bytes(static_cast<std::size_t>(image.getEncodedSize()));
@@ -60,7 +63,7 @@ class LogSourceTest : public testing::Test {
   LcmLogWriter writer_{file_};
 };
 
-TEST_F(LogSourceTest, GivesThePairsWithTheirTimes) {
+TEST_F(LogSource, Pairs_WithTimes) {
   for (int i = 0; i < 3; ++i) write_pair(1'000'000 + i * 33'000, 10 * i);
   LogSources log = open();
   EXPECT_EQ(log.pairs, 3);
@@ -81,7 +84,7 @@ TEST_F(LogSourceTest, GivesThePairsWithTheirTimes) {
   EXPECT_EQ(log.right->state(), SourceState::kFinished);
 }
 
-TEST_F(LogSourceTest, LeavesOutWhatHasNoPartner) {
+TEST_F(LogSource, Unpaired_Skipped) {
   write("R_RIGHT_RAW", image_of(900'000, 1));
   write_pair(1'000'000, 10);
   write("R_LEFT_RAW", image_of(1'033'000, 2));
@@ -101,7 +104,7 @@ TEST_F(LogSourceTest, LeavesOutWhatHasNoPartner) {
   EXPECT_EQ(log.left->next(1s).frame().luma.data[0], 10);
 }
 
-TEST_F(LogSourceTest, BeginsAgainWithTimesThatGoOn) {
+TEST_F(LogSource, Loop_TimesContinue) {
   write_pair(1'000'000, 0);
   write_pair(1'040'000, 1);
   LogSources log = open(false, true);
@@ -114,7 +117,7 @@ TEST_F(LogSourceTest, BeginsAgainWithTimesThatGoOn) {
   EXPECT_THAT(utimes, testing::ElementsAre(1'000'000, 1'040'000, 1'080'000, 1'120'000, 1'160'000));
 }
 
-TEST_F(LogSourceTest, KeepsTheOriginalPace) {
+TEST_F(LogSource, OriginalPace_Kept) {
   write_pair(1'000'000, 0);
   write_pair(1'150'000, 1);
   LogSources log = open(true);
@@ -132,13 +135,87 @@ TEST_F(LogSourceTest, KeepsTheOriginalPace) {
   EXPECT_FALSE(log.right->next(10s));
 }
 
-TEST_F(LogSourceTest, TellsWhatIsWrong) {
+TEST_F(LogSource, UnusableLog_ReasonNamed) {
   EXPECT_THAT(error(), HasSubstr("this is no LCM log"));
   write("R_LEFT_RAW", image_of(1, 1));
   EXPECT_THAT(error(),
               HasSubstr("no pair of images on R_LEFT_RAW and R_RIGHT_RAW; record with lcm.raw_images"));
   write("R_RIGHT_RAW", image_of(1, 1, 32, 24));
   EXPECT_THAT(error(), HasSubstr("not all of one size"));
+}
+
+// Messages with the fingerprint of image_t whose lengths are wrong.
+class HostileLog : public LogSource {
+ protected:
+  static constexpr std::size_t kSizeOffset = 8 + 8 + 4 * 4;
+
+  static void put(std::vector<std::byte>& bytes, std::size_t at, std::uint32_t value) {
+    for (int i = 0; i < 4; ++i)
+      bytes.at(at + static_cast<std::size_t>(i)) = std::byte(value >> (24 - 8 * i) & 0xff);
+  }
+  static void append(std::vector<std::byte>& bytes, std::uint32_t value) {
+    bytes.resize(bytes.size() + 4);
+    put(bytes, bytes.size() - 4, value);
+  }
+  static std::vector<std::byte> encoded(const image_t& image) {
+    std::vector<std::byte> bytes(static_cast<std::size_t>(image.getEncodedSize()));
+    image.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    return bytes;
+  }
+  /// Returns a message with the given size of the image data.
+  static std::vector<std::byte> with_size(std::uint32_t size) {
+    std::vector<std::byte> bytes = encoded(image_of(1'000'000, 1));
+    put(bytes, kSizeOffset, size);
+    return bytes;
+  }
+  /// Returns a message with the given number of metadata entries and, after it, the length of the first key.
+  static std::vector<std::byte> with_metadata(std::uint32_t entries, std::uint32_t key_length) {
+    std::vector<std::byte> bytes = encoded(image_of(1'000'000, 1));
+    put(bytes, bytes.size() - 4, entries);
+    append(bytes, key_length);
+    append(bytes, 0);
+    return bytes;
+  }
+  static std::vector<std::vector<std::byte>> messages() {
+    constexpr std::uint32_t kMinus1 = 0xffff'ffff, kMin = 0x8000'0000, kMillions = 60'000'000;
+    return {with_metadata(1, kMin),       with_metadata(1, 0),
+            with_metadata(1, kMinus1),    with_metadata(1, kMillions),
+            with_metadata(kMinus1, kMin), with_metadata(kMin, 1),
+            with_metadata(kMillions, 1),  with_size(0),
+            with_size(kMinus1),           with_size(kMin),
+            with_size(kMillions)};
+  }
+};
+
+TEST_F(HostileLog, OnlyHostileMessages_RefusedInOneSentence) {
+  for (const std::vector<std::byte>& bytes : messages()) {
+    writer_.write(1'000'000, "R_LEFT_RAW", bytes);
+    writer_.write(1'000'000, "R_RIGHT_RAW", bytes);
+  }
+  EXPECT_EQ(error(),
+            file_.string() +
+                ": the log has no pair of images on R_LEFT_RAW and R_RIGHT_RAW (22 messages there are not "
+                "8-bit gray images); record with lcm.raw_images: true, or set cameras.log.prefix");
+}
+
+TEST_F(HostileLog, AmongGoodPairs_Skipped) {
+  write_pair(1'000'000, 10);
+  for (const std::vector<std::byte>& bytes : messages()) writer_.write(1'000'000, "R_LEFT_RAW", bytes);
+  write_pair(1'033'000, 20);
+  LogSources log = open();
+  EXPECT_EQ(log.pairs, 2);
+  EXPECT_EQ(log.unpaired, 11);
+}
+
+TEST_F(HostileLog, ExtremeTimes_Refused) {
+  for (const std::int64_t utime : {std::int64_t{-1}, std::numeric_limits<std::int64_t>::min(),
+                                   std::numeric_limits<std::int64_t>::max()}) {
+    writer_.write(1'000'000, "R_LEFT_RAW", encoded(image_of(utime, 1)));
+  }
+  write_pair(1'000'000, 10);
+  LogSources log = open();
+  EXPECT_EQ(log.pairs, 1);
+  EXPECT_EQ(log.unpaired, 3);
 }
 
 }  // namespace

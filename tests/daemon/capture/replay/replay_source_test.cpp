@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Recordings as cameras.
 #include "daemon/capture/replay/replay_source.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/capture/replay/recording.h"
 #include "tests/support/image_files.h"
 #include "tests/support/temporary_directory.h"
 
@@ -20,47 +21,34 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kLong = std::chrono::hours(1);  // never waited for unless something is broken
+constexpr milliseconds kLong = std::chrono::hours(1);  // the test fails before this time has passed
 constexpr milliseconds kNone{0};
 
-Bytes picture(int value, Size size = {4, 3}) {
+Bytes pgm_image(int value, Size size = {4, 3}) {
   const std::string header =
       "P5 " + std::to_string(size.width) + " " + std::to_string(size.height) + " 255\n";
   return make_raw_pnm(header, std::vector<int>(static_cast<std::size_t>(size.width * size.height), value),
                       false);
 }
 
-class ReplaySourceTest : public testing::Test {
+class ReplaySource : public testing::Test {
  protected:
   void add(const std::string& name, int value, Size size = {4, 3}) {
     std::filesystem::create_directories((directory_ / name).parent_path());
-    write_bytes(directory_ / name, picture(value, size));
+    write_bytes(directory_ / name, pgm_image(value, size));
   }
-  /// Pairs numbered from 0 whose pixels are 10, 11, … and 110, 111, …
+  /// Adds pairs numbered from 0 whose pixels are 10, 11, … and 110, 111, …
   void add_pairs(int count) {
     for (int i = 0; i < count; ++i) {
       add("left_" + std::to_string(i) + ".pgm", 10 + i);
       add("right_" + std::to_string(i) + ".pgm", 110 + i);
     }
   }
-  /// First pixels of all left and right images in the order in which they are replayed.
-  std::vector<std::pair<int, int>> recorded() const {
-    std::vector<std::pair<int, int>> values;
-    const Recording recording(directory_.path());
-    for (const RecordedPair& pair : recording.pairs()) {
-      values.emplace_back(pair.left.at(0, 0), pair.right.at(0, 0));
-    }
-    return values;
-  }
-  std::string refusal() const {
-    return file_error_of([&] { Recording recording(directory_.path()); });
-  }
-  std::string in_directory(const std::string& name) const { return (directory_ / name).string(); }
 
   TemporaryDirectory directory_;
 };
 
-TEST_F(ReplaySourceTest, PlaysEachPairOnceAndFinishes) {
+TEST_F(ReplaySource, NoLoop_PlaysOnceAndFinishes) {
   add_pairs(3);
   const ReplaySources sources = open_replay(directory_.path(), {.fps = 0, .loop = false});
   EXPECT_EQ(sources.left->state(), SourceState::kWaiting);
@@ -82,7 +70,7 @@ TEST_F(ReplaySourceTest, PlaysEachPairOnceAndFinishes) {
   }
 }
 
-TEST_F(ReplaySourceTest, LoopsAndGoesOnCounting) {
+TEST_F(ReplaySource, Loop_KeepsCounting) {
   add_pairs(3);
   const ReplaySources sources = open_replay(directory_.path(), {.fps = 0, .loop = true});
   std::int64_t last_captured = std::numeric_limits<std::int64_t>::min();
@@ -98,7 +86,7 @@ TEST_F(ReplaySourceTest, LoopsAndGoesOnCounting) {
   }
 }
 
-TEST_F(ReplaySourceTest, LendsWholePictures) {
+TEST_F(ReplaySource, Frame_WholeImage) {
   write_bytes(directory_ / "l0.pgm", make_raw_pnm("P5 3 2 255\n", {1, 2, 3, 4, 5, 6}, false));
   add("r0.pgm", 9, {3, 2});
   const ReplaySources sources = open_replay(directory_.path(), {.fps = 0});
@@ -112,7 +100,7 @@ TEST_F(ReplaySourceTest, LendsWholePictures) {
   }
 }
 
-TEST_F(ReplaySourceTest, AsFastAsPossibleWaitsForTheFrameToComeBack) {
+TEST_F(ReplaySource, RateZero_WaitsForLease) {
   add_pairs(2);
   const ReplaySources sources = open_replay(directory_.path(), {.fps = 0});
   FrameLease left = sources.left->next(kLong);
@@ -124,10 +112,10 @@ TEST_F(ReplaySourceTest, AsFastAsPossibleWaitsForTheFrameToComeBack) {
   EXPECT_EQ(left.frame().sequence, 1U);
 }
 
-TEST_F(ReplaySourceTest, PacedFramesKeepTheirDistance) {
+TEST_F(ReplaySource, Paced_ConstantPeriod) {
   add_pairs(3);
   const ReplaySources sources = open_replay(directory_.path(), {.fps = 500, .loop = true});
-  // Whoever is slow misses frames, so only what belongs to a number is checked, not which numbers come.
+  // A slow test misses frames, so the content of each frame is checked, not which numbers come.
   std::vector<Frame> frames;
   for (int i = 0; i < 20; ++i) {
     FrameSource& source = i % 2 == 0 ? *sources.left : *sources.right;
@@ -143,7 +131,7 @@ TEST_F(ReplaySourceTest, PacedFramesKeepTheirDistance) {
   }
 }
 
-TEST_F(ReplaySourceTest, PacedReplayFinishesToo) {
+TEST_F(ReplaySource, PacedNoLoop_Finishes) {
   add_pairs(2);
   const ReplaySources sources = open_replay(directory_.path(), {.fps = 1000, .loop = false});
   for (FrameSource* source : {sources.left.get(), sources.right.get()}) {
@@ -155,7 +143,7 @@ TEST_F(ReplaySourceTest, PacedReplayFinishesToo) {
   }
 }
 
-TEST_F(ReplaySourceTest, OneSideThatFinishedDoesNotHoldTheOther) {
+TEST_F(ReplaySource, OneSideFinished_OtherFinishes) {
   add_pairs(1);
   const ReplaySources sources = open_replay(directory_.path(), {.fps = 0, .loop = false});
   sources.left->next(kLong).end();
@@ -165,7 +153,7 @@ TEST_F(ReplaySourceTest, OneSideThatFinishedDoesNotHoldTheOther) {
   EXPECT_EQ(sources.right->state(), SourceState::kFinished);
 }
 
-TEST_F(ReplaySourceTest, StopEndsAWait) {
+TEST_F(ReplaySource, Stop_EndsWait) {
   add_pairs(1);
   const ReplaySources sources = open_replay(directory_.path(), {.fps = 0});
   const FrameLease on_loan = sources.left->next(kLong);
@@ -175,7 +163,7 @@ TEST_F(ReplaySourceTest, StopEndsAWait) {
   EXPECT_FALSE(sources.left->next(kLong));
 }
 
-TEST_F(ReplaySourceTest, OneSourceMayLiveLonger) {
+TEST_F(ReplaySource, OneDestroyed_OtherWorks) {
   add_pairs(1);
   ReplaySources sources = open_replay(directory_.path(), {.fps = 0});
   sources.left->stop();
@@ -184,7 +172,7 @@ TEST_F(ReplaySourceTest, OneSourceMayLiveLonger) {
   EXPECT_EQ(lease.frame().luma.data[0], 110);
 }
 
-TEST_F(ReplaySourceTest, PlaysTwoNamedFiles) {
+TEST_F(ReplaySource, TwoFiles_Played) {
   add("a.pgm", 5);
   add("b.pgm", 6);
   const ReplaySources sources = open_replay(directory_ / "a.pgm", directory_ / "b.pgm", {.fps = 0});
@@ -192,125 +180,11 @@ TEST_F(ReplaySourceTest, PlaysTwoNamedFiles) {
   EXPECT_EQ(sources.right->next(kLong).frame().luma.data[0], 6);
 }
 
-TEST_F(ReplaySourceTest, RefusesImpossibleRates) {
+TEST_F(ReplaySource, RateOutOfRange_Throws) {
   add_pairs(1);
   for (const double fps : {-1.0, 1001.0, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(open_replay(directory_.path(), {.fps = fps}), std::invalid_argument);
   }
-}
-
-TEST_F(ReplaySourceTest, SortsByNumberNotByName) {
-  for (const int i : {10, 9, 100, 2}) {
-    add("left_" + std::to_string(i) + ".pgm", i);
-    add("right_" + std::to_string(i) + ".pgm", i + 100);
-  }
-  EXPECT_EQ(recorded(), (std::vector<std::pair<int, int>>{{2, 102}, {9, 109}, {10, 110}, {100, 200}}));
-}
-
-TEST_F(ReplaySourceTest, KnowsManyNames) {
-  const std::vector<std::pair<std::string, std::string>> names{{"left_00.pgm", "right_00.pgm"},
-                                                               {"left01.ppm", "right01.pgm"},
-                                                               {"L2.pgm", "R2.pgm"},
-                                                               {"LEFT-3.PGM", "Right-003.pgm"},
-                                                               {"l_00000000000000000000004.pgm", "r4.pgm"}};
-  int value = 0;
-  for (const auto& [left, right] : names) {
-    add(left, value);
-    add(right, 100 + value++);
-  }
-  add("disparity_00.pgm", 77);  // does not matter
-  write_bytes(directory_ / "left_99.txt", bytes_of("nor does this"));
-  EXPECT_EQ(recorded(), (std::vector<std::pair<int, int>>{{0, 100}, {1, 101}, {2, 102}, {3, 103}, {4, 104}}));
-}
-
-TEST_F(ReplaySourceTest, KnowsTheOnlyPairWithoutNumber) {
-  add("left.pgm", 1);
-  add("right.pgm", 2);
-  EXPECT_EQ(recorded(), (std::vector<std::pair<int, int>>{{1, 2}}));
-}
-
-TEST_F(ReplaySourceTest, KnowsFolders) {
-  add("left/0002.pgm", 2);
-  add("left/0001.pgm", 1);
-  add("right/frame_2.pgm", 102);
-  add("right/frame_1.pgm", 101);
-  EXPECT_EQ(recorded(), (std::vector<std::pair<int, int>>{{1, 101}, {2, 102}}));
-}
-
-TEST_F(ReplaySourceTest, KnowsFoldersOfOneLetter) {
-  add("L/7.pgm", 7);
-  add("R/7.pgm", 107);
-  EXPECT_EQ(recorded(), (std::vector<std::pair<int, int>>{{7, 107}}));
-}
-
-TEST_F(ReplaySourceTest, NamesAMissingPartner) {
-  add_pairs(2);
-  add("left_5.pgm", 5);
-  EXPECT_EQ(refusal(),
-            in_directory("left_5.pgm") + ": has no partner; there is no right image with its number");
-  std::filesystem::remove(directory_ / "left_5.pgm");
-  std::filesystem::remove(directory_ / "left_1.pgm");
-  EXPECT_EQ(refusal(),
-            in_directory("right_1.pgm") + ": has no partner; there is no left image with its number");
-}
-
-TEST_F(ReplaySourceTest, NamesTwoWithOneNumber) {
-  add_pairs(2);
-  add("left_01.pgm", 5);
-  EXPECT_EQ(refusal(),
-            in_directory("left_1.pgm") + ": has the same number as left_01.pgm; each pair needs its own");
-}
-
-TEST_F(ReplaySourceTest, SaysWhatADirectoryWithoutPairsLacks) {
-  add("image.pgm", 1);
-  EXPECT_EQ(
-      refusal(),
-      directory_.path().string() +
-          ": there is no stereo pair in it; files like left_00.png and right_00.png, or directories left "
-          "and right with numbered images, are needed");
-  EXPECT_EQ(file_error_of([&] { Recording recording(directory_ / "none"); }),
-            in_directory("none") + ": the directory does not exist");
-  EXPECT_EQ(file_error_of([&] { Recording recording(directory_ / "image.pgm"); }),
-            in_directory("image.pgm") + ": is no directory; a directory of numbered pairs is needed");
-}
-
-TEST_F(ReplaySourceTest, NamesAPictureOfAnotherSize) {
-  add_pairs(2);
-  add("right_0.pgm", 1, {5, 3});
-  EXPECT_EQ(refusal(),
-            in_directory("right_0.pgm") +
-                ": has 5×3 pixels, but left_0.pgm has 4×3; all images of a recording must have one size");
-  add("right_0.pgm", 1);
-  add("left_1.pgm", 1, {4, 8});
-  EXPECT_EQ(refusal(),
-            in_directory("left_1.pgm") +
-                ": has 4×8 pixels, but left_0.pgm has 4×3; all images of a recording must have one size");
-  EXPECT_EQ(file_error_of([&] { Recording recording(directory_ / "left_0.pgm", directory_ / "left_1.pgm"); }),
-            in_directory("left_1.pgm") +
-                ": has 4×8 pixels, but left_0.pgm has 4×3; all images of a recording must have one size");
-}
-
-TEST_F(ReplaySourceTest, NamesAPictureThatCannotBeRead) {
-  add_pairs(2);
-  write_bytes(directory_ / "right_1.pgm", bytes_of("P5 4 3 255\nabc"));
-  EXPECT_EQ(refusal(),
-            in_directory("right_1.pgm") + ": the PGM file is truncated; it ends before its image does");
-}
-
-TEST_F(ReplaySourceTest, TakesNoMoreThanAGibibyte) {
-  // 33 pairs of 4096² pixels; only the first is read before that is seen.
-  const Bytes large = make_png(PngKind::kGray, 1, false, {4096, 4096}, std::vector<int>(4096 * 4096));
-  write_bytes(directory_ / "large.png", large);
-  for (int i = 0; i < 33; ++i) {
-    std::filesystem::create_hard_link(directory_ / "large.png",
-                                      directory_ / ("left" + std::to_string(i) + ".png"));
-    std::filesystem::create_hard_link(directory_ / "large.png",
-                                      directory_ / ("right" + std::to_string(i) + ".png"));
-  }
-  EXPECT_EQ(refusal(),
-            directory_.path().string() +
-                ": 33 pairs of 4096×4096 pixels do not fit into 1 GiB, the most that is replayed; take out "
-                "some");
 }
 
 }  // namespace

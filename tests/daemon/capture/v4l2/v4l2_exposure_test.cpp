@@ -1,4 +1,5 @@
-// Controls by name, and the exposure of two cameras kept the same.
+// SPDX-License-Identifier: BSD-3-Clause
+// Controls by name, and equal exposure of two cameras.
 #include <gmock/gmock.h>
 #include <linux/videodev2.h>
 
@@ -8,7 +9,7 @@
 
 #include "tests/support/camera_bench.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
 using testing::ElementsAre;
@@ -26,9 +27,9 @@ std::vector<FakeControl> uvc_controls() {
       {V4L2_CID_EXPOSURE_AUTO_PRIORITY, "Exposure, Dynamic Framerate", 0, 1, 1, 1, V4L2_CTRL_TYPE_BOOLEAN}};
 }
 
-class Controls : public testing::Test {
+class V4l2Controls : public testing::Test {
  protected:
-  Controls() { bench_.left_camera->controls = bench_.right_camera->controls = uvc_controls(); }
+  V4l2Controls() { bench_.left_camera->controls = bench_.right_camera->controls = uvc_controls(); }
   static std::int32_t value(const FakeCamera& camera, std::uint32_t id) {
     for (const FakeControl& control : camera.controls)
       if (control.id == id) return control.value;
@@ -41,7 +42,7 @@ class Controls : public testing::Test {
   CameraBench bench_;
 };
 
-TEST_F(Controls, AutomaticModesGoOffBeforeTheirValuesAreSet) {
+TEST_F(V4l2Controls, Values_AutoModesDisabledFirst) {
   bench_.config.v4l2.controls = {{"exposure_time_absolute", 120}, {"white_balance_temperature", 5000}};
   bench_.config.v4l2.left_controls = {{"gain", 33}};
   bench_.make();
@@ -53,28 +54,26 @@ TEST_F(Controls, AutomaticModesGoOffBeforeTheirValuesAreSet) {
   EXPECT_EQ(bench_.left->report().note, "");
 }
 
-TEST_F(Controls, DifferencesAreReported) {
+TEST_F(V4l2Controls, ValueNotAccepted_Noted) {
   bench_.config.v4l2.controls = {{"gain", 300}, {"sharpness", 3}};
   bench_.make();
   bench_.run(500);
   EXPECT_EQ(bench_.left->report().note,
-            "gain was set to 300 and is 100, allowed are 0 to 100; it has no control sharpness");
-  EXPECT_EQ(bench_.left->report().state, "streaming") << "a control is no reason not to stream";
+            "gain: set to 300, reads back 100 (range 0…100); no control named sharpness");
+  EXPECT_EQ(bench_.left->report().state, SourceState::kStreaming) << "a control does not stop the stream";
 }
 
-TEST_F(Controls, ErrorsAreReported) {
+TEST_F(V4l2Controls, CallFails_Noted) {
   bench_.config.v4l2.controls = {{"brightness", 99}};
   bench_.left_camera->faults[VIDIOC_S_CTRL] = {EIO, 1, 1};  // after the lengthening of exposure
   bench_.right_camera->faults[VIDIOC_G_CTRL] = {EIO, 1};
   bench_.make();
   bench_.run(500);
-  EXPECT_EQ(bench_.left->report().note,
-            "brightness could not be set to 99 (Input/output error), allowed are 0 to 255");
-  EXPECT_EQ(bench_.right->report().note,
-            "brightness was set to 99 and cannot be read back (Input/output error)");
+  EXPECT_EQ(bench_.left->report().note, "brightness: cannot be set to 99: Input/output error (range 0…255)");
+  EXPECT_EQ(bench_.right->report().note, "brightness: set to 99, cannot be read back: Input/output error");
 }
 
-TEST_F(Controls, NamesOfOtherKernelsAreUnderstood) {
+TEST_F(V4l2Controls, OldNames_Accepted) {
   bench_.config.v4l2.controls = {{"exposure_absolute", 99}, {"exposure_auto_priority", 1}};
   bench_.make();
   bench_.run(500);
@@ -83,14 +82,14 @@ TEST_F(Controls, NamesOfOtherKernelsAreUnderstood) {
   EXPECT_EQ(bench_.left->report().note, "");
 }
 
-TEST_F(Controls, AModeThatTheConfigurationNamesIsKept) {
+TEST_F(V4l2Controls, NamedMode_Kept) {
   bench_.config.v4l2.controls = {{"auto_exposure", 3}, {"exposure_time_absolute", 99}};
   bench_.make();
   bench_.run(500);
   EXPECT_EQ(value(*bench_.left_camera, V4L2_CID_EXPOSURE_AUTO), 3);
 }
 
-TEST_F(Controls, AreSetAgainAfterAReplug) {
+TEST_F(V4l2Controls, Replug_SetAgain) {
   bench_.config.v4l2.controls = {{"gain", 42}};
   bench_.make();
   bench_.run(500);
@@ -102,9 +101,9 @@ TEST_F(Controls, AreSetAgainAfterAReplug) {
   EXPECT_EQ(value(*bench_.left_camera, V4L2_CID_GAIN), 42);
 }
 
-TEST_F(Controls, FollowCopiesTheLeftCamerasExposure) {
+TEST_F(V4l2Controls, Follow_CopiesLeftExposure) {
   bench_.config.v4l2.exposure = ExposureMode::kFollow;
-  set(*bench_.left_camera, V4L2_CID_EXPOSURE_AUTO, 1);  // as another program left it
+  set(*bench_.left_camera, V4L2_CID_EXPOSURE_AUTO, 1);  // left so by another program
   bench_.make();
   bench_.run(1000);
   EXPECT_EQ(value(*bench_.left_camera, V4L2_CID_EXPOSURE_AUTO), 3) << "the left automation works";
@@ -119,11 +118,11 @@ TEST_F(Controls, FollowCopiesTheLeftCamerasExposure) {
   EXPECT_EQ(bench_.right->report().note, "");
 }
 
-TEST_F(Controls, LockSettlesAndThenKeepsBothTheSame) {
+TEST_F(V4l2Controls, Lock_KeepsBothTheSame) {
   bench_.config.v4l2.exposure = ExposureMode::kLock;
   bench_.make();
   bench_.run(1500);
-  set(*bench_.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE, 333);  // what its automation came to
+  set(*bench_.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE, 333);  // found by its automatic mode
   bench_.run(3000);
   for (const FakeCamera* camera : {bench_.left_camera, bench_.right_camera}) {
     EXPECT_EQ(value(*camera, V4L2_CID_EXPOSURE_AUTO), 1);
@@ -138,7 +137,7 @@ TEST_F(Controls, LockSettlesAndThenKeepsBothTheSame) {
   EXPECT_EQ(value(*bench_.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE), 333) << "for good";
 }
 
-TEST_F(Controls, ANamedExposureIsKeptAndTheGainIsStillLocked) {
+TEST_F(V4l2Controls, NamedExposure_GainStillLocked) {
   bench_.config.v4l2.exposure = ExposureMode::kLock;
   bench_.config.v4l2.controls = {{"exposure_time_absolute", 120}};
   for (FakeCamera* camera : {bench_.left_camera, bench_.right_camera})
@@ -157,43 +156,41 @@ TEST_F(Controls, ANamedExposureIsKeptAndTheGainIsStillLocked) {
   EXPECT_EQ(bench_.right->report().note, "");
 }
 
-TEST_F(Controls, ANoteStandsForAsLongAsItIsTrue) {
+TEST_F(V4l2Controls, Note_WithdrawnWhenSolved) {
   bench_.config.v4l2.exposure = ExposureMode::kFollow;
   bench_.config.v4l2.controls = {{"sharpness", 3}};
   for (FakeControl& control : bench_.right_camera->controls)
-    if (control.id == V4L2_CID_EXPOSURE_ABSOLUTE) control.most = 100;
+    if (control.id == V4L2_CID_EXPOSURE_ABSOLUTE) control.maximum = 100;
   bench_.make();
   bench_.run(1500);
-  EXPECT_THAT(bench_.right->report().note,
-              HasSubstr("it has no control sharpness; its exposure does not take"));
+  EXPECT_THAT(bench_.right->report().note, HasSubstr("no control named sharpness; the exposure differs"));
   set(*bench_.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE, 90);
   bench_.run(1500);
-  EXPECT_EQ(bench_.right->report().note, "it has no control sharpness");
+  EXPECT_EQ(bench_.right->report().note, "no control named sharpness");
   EXPECT_EQ(std::count_if(
                 bench_.log.begin(), bench_.log.end(),
-                [](const std::string& line) { return line.find("right camera: it has no") != line.npos; }),
+                [](const std::string& line) { return line.find("right camera: no control") != line.npos; }),
             1 + 1)
       << "at the start, and with the exposure";
 }
 
-TEST_F(Controls, AnExposureThatDoesNotTakeIsReportedOnce) {
+TEST_F(V4l2Controls, ExposureNotAccepted_LoggedOnce) {
   bench_.config.v4l2.exposure = ExposureMode::kFollow;
   for (FakeControl& control : bench_.right_camera->controls)
-    if (control.id == V4L2_CID_EXPOSURE_ABSOLUTE) control.most = 100;
+    if (control.id == V4L2_CID_EXPOSURE_ABSOLUTE) control.maximum = 100;
   bench_.make();
   bench_.run(1500);
-  EXPECT_EQ(
-      bench_.right->report().note,
-      "its exposure does not take the left camera's values: exposure_time_absolute should be 250 and is 100");
+  EXPECT_EQ(bench_.right->report().note,
+            "the exposure differs from the left camera's: exposure_time_absolute is 100, should be 250");
   set(*bench_.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE, 400);
   bench_.run(3000);
   EXPECT_EQ(std::count_if(bench_.log.begin(), bench_.log.end(),
-                          [](const std::string& line) { return line.find("does not take") != line.npos; }),
+                          [](const std::string& line) { return line.find("exposure differs") != line.npos; }),
             1);
 }
 
-// A control that cannot be read or set for a moment is asked for again.
-TEST_F(Controls, WhatSomebodyElseChangesIsSetBack) {
+// Values that another program changes are restored.
+TEST_F(V4l2Controls, ChangedByOthers_SetBack) {
   bench_.config.v4l2.exposure = ExposureMode::kLock;
   bench_.make();
   bench_.run(4000);
@@ -205,25 +202,25 @@ TEST_F(Controls, WhatSomebodyElseChangesIsSetBack) {
   EXPECT_EQ(value(*bench_.right_camera, V4L2_CID_EXPOSURE_ABSOLUTE), locked);
 }
 
-TEST_F(Controls, ACameraThatCannotTakePartSaysSo) {
+TEST_F(V4l2Controls, NoExposureControl_Noted) {
   bench_.right_camera->controls = {{V4L2_CID_BRIGHTNESS, "Brightness", 0, 255, 128, 128}};
   for (const ExposureMode mode : {ExposureMode::kLock, ExposureMode::kFollow}) {
     bench_.config.v4l2.exposure = mode;
     bench_.make();
     bench_.run(1000);
-    EXPECT_THAT(bench_.right->report().note, HasSubstr("has no exposure_time_absolute"));
+    EXPECT_THAT(bench_.right->report().note, HasSubstr("no control named exposure_time_absolute"));
     EXPECT_EQ(bench_.left->report().note, "");
   }
 }
 
-// Two equal cameras in phase that stamp the end of a frame: what they expose when they are opened is not what
-// they do when they have been made alike.
-TEST_F(Controls, MadeAlikeTheirStampsAreTooAtTheEndOfAFrame) {
+// Two equal cameras in phase with timestamps of the end of the frame: their exposure at opening is not the
+// one they are set to later.
+TEST_F(V4l2Controls, FollowWithEndOfFrame_SameTimestamps) {
   bench_.config.v4l2.exposure = ExposureMode::kFollow;
   set(*bench_.left_camera, V4L2_CID_EXPOSURE_ABSOLUTE, 20);
   set(*bench_.right_camera, V4L2_CID_EXPOSURE_ABSOLUTE, 170);
   for (FakeCamera* camera : {bench_.left_camera, bench_.right_camera}) {
-    camera->stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_EOF;
+    camera->timestamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_EOF;
     camera->keeps_phase = true;
   }
   bench_.make();
@@ -234,7 +231,7 @@ TEST_F(Controls, MadeAlikeTheirStampsAreTooAtTheEndOfAFrame) {
   EXPECT_LT(std::min(apart, 33'333'333 - apart), 10'000);
 }
 
-TEST_F(Controls, AnErrorThatPassesDoesNotEndLockOrFollow) {
+TEST_F(V4l2Controls, TransientError_LockAndFollowContinue) {
   for (const ExposureMode mode : {ExposureMode::kLock, ExposureMode::kFollow}) {
     for (const bool reading : {true, false}) {
       SCOPED_TRACE(testing::Message() << (mode == ExposureMode::kLock ? "lock" : "follow")
@@ -246,7 +243,7 @@ TEST_F(Controls, AnErrorThatPassesDoesNotEndLockOrFollow) {
       bench.config.v4l2.exposure = mode;
       bench.make();
       bench.run(mode == ExposureMode::kLock ? 1600 : 100);
-      // The left camera's values when they are first wanted; the right one's way out of its automatic mode.
+      // The first reading of the left camera's values; the right camera's change to manual exposure.
       if (reading) bench.left_camera->faults[VIDIOC_G_CTRL] = {EIO, 1};
       if (!reading) bench.right_camera->faults[VIDIOC_S_CTRL] = {EIO, 1};
       bench.run(4000);
@@ -258,4 +255,4 @@ TEST_F(Controls, AnErrorThatPassesDoesNotEndLockOrFollow) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::v4l2

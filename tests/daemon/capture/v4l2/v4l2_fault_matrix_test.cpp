@@ -1,4 +1,5 @@
-// Every error at every step: what state and what reason a camera is in then, and that it comes back.
+// SPDX-License-Identifier: BSD-3-Clause
+// Every error at every stage: the state and reason of the camera, and its recovery.
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>
 
@@ -8,13 +9,13 @@
 
 #include "tests/support/camera_bench.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
 struct Step {
   const char* name;
   unsigned long request;
-  bool streaming;  // the error comes when frames already flow
+  bool streaming;  // the error comes while the camera streams
 };
 
 constexpr Step kSteps[] = {
@@ -43,8 +44,8 @@ struct Error {
 constexpr Error kErrors[] = {{"EAGAIN", EAGAIN}, {"EIO", EIO},     {"ENODEV", ENODEV},
                              {"ENOSPC", ENOSPC}, {"EBUSY", EBUSY}, {"EINVAL", EINVAL}};
 
-// What happens if the error comes once, and what the camera says then: "state: reason". "streaming" alone:
-// the error does not matter.
+// Returns what the camera reports after the error: "state: reason", or "streaming" if the error has no
+// effect.
 std::string outcome(const Step& step, const Error& error, bool& recovered) {
   CameraBench bench;
   bench.config.v4l2.format = "yuyv";
@@ -58,20 +59,22 @@ std::string outcome(const Step& step, const Error& error, bool& recovered) {
   }
   for (int i = 0; i < 15; ++i) bench.frame(*bench.left, 100);
   const SourceReport report = bench.left->report();
-  std::string said = report.state;
-  if (report.state != "streaming") said += ": " + std::string(name_of(bench.left->fault().reason));
+  std::string said(name_of(report.state));
+  if (report.state != SourceState::kStreaming)
+    said += ": " + std::string(name_of(bench.left->fault().reason));
 
   camera.faults.clear();
   const std::int64_t possible_ns = bench.video.now_ns();
   recovered = static_cast<bool>(bench.frame(*bench.left, 5000)) &&
-              bench.video.now_ns() - possible_ns < 2'000'000'000 && bench.left->report().state == "streaming";
+              bench.video.now_ns() - possible_ns < 2'000'000'000 &&
+              bench.left->report().state == SourceState::kStreaming;
   bench.left.reset();
   EXPECT_EQ(bench.video.open_descriptors(), 0) << step.name << ", " << error.name;
   EXPECT_EQ(bench.video.mappings(), 0) << step.name << ", " << error.name;
   return said;
 }
 
-// The table that docs/cameras.md shows. One line a step, in the order of kErrors.
+// The table in docs/cameras.md: one line for each stage, in the order of kErrors.
 const std::map<std::string, std::vector<std::string>> kExpected = {
     {"open",
      {"opening: driver error", "opening: driver error", "absent: unplugged", "opening: driver error",
@@ -111,7 +114,7 @@ const std::map<std::string, std::vector<std::string>> kExpected = {
      {"lost: driver error", "lost: driver error", "lost: driver error", "lost: driver error",
       "lost: driver error", "lost: driver error"}},
     {"DQBUF",
-     {"wedged: silent", "lost: driver error", "lost: unplugged", "lost: no bandwidth", "lost: busy",
+     {"stalled: silent", "lost: driver error", "lost: unplugged", "lost: no bandwidth", "lost: busy",
       "lost: driver error"}},
     {"QBUF, streaming",
      {"lost: driver error", "lost: driver error", "absent: unplugged", "lost: no bandwidth", "lost: busy",
@@ -119,7 +122,7 @@ const std::map<std::string, std::vector<std::string>> kExpected = {
     {"STREAMOFF", {"streaming", "streaming", "streaming", "streaming", "streaming", "streaming"}},
 };
 
-TEST(V4l2FaultMatrix, EveryErrorAtEveryStepHasItsStateAndReasonAndIsRecoveredFrom) {
+TEST(V4l2FaultMatrix, EveryErrorAtEveryStage_Recovered) {
   std::printf("%-20s", "step");
   for (const Error& error : kErrors) std::printf(" | %-22s", error.name);
   std::printf("\n");
@@ -136,8 +139,8 @@ TEST(V4l2FaultMatrix, EveryErrorAtEveryStepHasItsStateAndReasonAndIsRecoveredFro
   }
 }
 
-// The driver fails here and there, at random, for an hour of frames.
-TEST(V4l2FaultMatrix, ManyFaultsInARowLeaveNothingBehind) {
+// The driver fails at random calls.
+TEST(V4l2FaultMatrix, RandomFaults_NoLeaks) {
   CameraBench bench;
   bench.make();
   std::uint32_t state = 1;
@@ -168,4 +171,4 @@ TEST(V4l2FaultMatrix, ManyFaultsInARowLeaveNothingBehind) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::v4l2

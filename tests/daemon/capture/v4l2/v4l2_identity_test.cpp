@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which camera is which: names, ports, functions of one device.
 #include <gmock/gmock.h>
 #include <linux/videodev2.h>
@@ -8,7 +9,7 @@
 #include "daemon/capture/v4l2/camera_list.h"
 #include "tests/support/camera_bench.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
 using testing::HasSubstr;
@@ -18,7 +19,7 @@ class V4l2Identity : public testing::Test {
   CameraBench bench_;
 };
 
-TEST_F(V4l2Identity, SwappedPortsAreFollowedByPort) {
+TEST_F(V4l2Identity, SwappedPorts_FollowPort) {
   bench_.make();
   bench_.run(300);
   bench_.video.plug(*bench_.left_camera, false);
@@ -32,7 +33,7 @@ TEST_F(V4l2Identity, SwappedPortsAreFollowedByPort) {
   EXPECT_THAT(bench_.right->report().device, HasSubstr("/dev/video0"));
 }
 
-TEST_F(V4l2Identity, TheSameCameraTwiceIsRefused) {
+TEST_F(V4l2Identity, SameNodeTwice_Refused) {
   bench_.config.v4l2.right = "/dev/video0";
   bench_.make();
   const CameraBench::Frames frames = bench_.run(2000);
@@ -42,8 +43,8 @@ TEST_F(V4l2Identity, TheSameCameraTwiceIsRefused) {
             "/dev/video0 belongs to the camera that is the left one; name two cameras in cameras.v4l2");
 }
 
-TEST_F(V4l2Identity, TwoNodesOfOneSensorAreTheSameCamera) {
-  bench_.right_camera->bus = bench_.left_camera->bus;  // one device with two cameras in it has that too
+TEST_F(V4l2Identity, TwoNodesOfOneSensor_Refused) {
+  bench_.right_camera->bus = bench_.left_camera->bus;  // as a device with two cameras has
   bench_.make();
   EXPECT_GT(bench_.run(2000).right, 40);
   bench_.left_camera->function = bench_.right_camera->function = "1-2:1.0";
@@ -58,7 +59,7 @@ TEST_F(V4l2Identity, TwoNodesOfOneSensorAreTheSameCamera) {
   EXPECT_THAT(bench_.left->report().reason, HasSubstr("only /dev/video0 is plugged in"));
 }
 
-TEST_F(V4l2Identity, CamerasSwappedAtOnceAreNotTakenForOne) {
+TEST_F(V4l2Identity, SwappedAtOnce_NoConflict) {
   bench_.make();
   bench_.run(300);
   bench_.video.plug(*bench_.left_camera, false);
@@ -72,14 +73,14 @@ TEST_F(V4l2Identity, CamerasSwappedAtOnceAreNotTakenForOne) {
   EXPECT_THAT(bench_.log, testing::Not(testing::Contains(HasSubstr("belongs to"))));
 }
 
-TEST_F(V4l2Identity, AMetadataNodeIsNoCamera) {
+TEST_F(V4l2Identity, MetadataNode_NoCamera) {
   bench_.left_camera->capture = false;
   bench_.make();
   EXPECT_FALSE(bench_.frame(*bench_.left, 1000));
   EXPECT_THAT(bench_.left->report().reason, HasSubstr("gives no images"));
 }
 
-TEST_F(V4l2Identity, IsFoundByEveryKindOfName) {
+TEST_F(V4l2Identity, EveryKindOfName_Found) {
   FakeCamera metadata;
   metadata.node = "/dev/video1";
   metadata.serial = "LEFT";
@@ -99,7 +100,7 @@ TEST_F(V4l2Identity, IsFoundByEveryKindOfName) {
   EXPECT_EQ(bench_.left->report().reason, "no camera with the serial number OTHER; plug it in");
 }
 
-TEST_F(V4l2Identity, AutomaticNamesStayWithTheirPorts) {
+TEST_F(V4l2Identity, Auto_StaysWithPort) {
   bench_.config.v4l2.left = bench_.config.v4l2.right = "auto";
   bench_.make();
   bench_.run(500);
@@ -108,10 +109,10 @@ TEST_F(V4l2Identity, AutomaticNamesStayWithTheirPorts) {
   bench_.video.plug(*bench_.left_camera, false);
   bench_.run(500);
   EXPECT_THAT(bench_.left->report().reason, HasSubstr("port-1"));
-  EXPECT_EQ(bench_.right->report().state, "streaming");
+  EXPECT_EQ(bench_.right->report().state, SourceState::kStreaming);
 }
 
-TEST_F(V4l2Identity, AutomaticNamesNeedTwoCameras) {
+TEST_F(V4l2Identity, AutoWithOneCamera_Waits) {
   bench_.config.v4l2.left = bench_.config.v4l2.right = "auto";
   bench_.right_camera->plugged = false;
   bench_.make();
@@ -121,7 +122,7 @@ TEST_F(V4l2Identity, AutomaticNamesNeedTwoCameras) {
   EXPECT_GT(bench_.run(1000).left, 10);
 }
 
-TEST_F(V4l2Identity, ACameraThatMayNotBeOpenedIsNotSaidToBeMissing) {
+TEST_F(V4l2Identity, NotPermitted_ReasonNamed) {
   for (FakeCamera* camera : {bench_.left_camera, bench_.right_camera}) {
     camera->faults[kFakeOpen] = {EACCES, 1'000'000};
   }
@@ -134,14 +135,14 @@ TEST_F(V4l2Identity, ACameraThatMayNotBeOpenedIsNotSaidToBeMissing) {
   }
 }
 
-TEST_F(V4l2Identity, TheListNamesWhatTheConfigurationNeeds) {
+TEST_F(V4l2Identity, List_NamesEverything) {
   bench_.left_camera->controls = {{V4L2_CID_GAIN, "Gain", 0, 100, 10, 20}};
   bench_.left_camera->card = "Fake Camera\x1b[2J";
   bench_.right_camera->capture = false;
   const std::string list = list_cameras(bench_.video);
   for (const char* part :
        {"Fake Camera", "/dev/v4l/by-path/port-1", "/dev/v4l/by-id/usb-LEFT-video-index0", "serial:LEFT",
-        "/dev/video0 (may change)", "usb-0000:00:14.0-1", "64×48 at 30", "20  (0 to 100, by itself 10)"}) {
+        "/dev/video0 (may change)", "usb-0000:00:14.0-1", "64×48 at 30", "20  (range 0…100, default 10)"}) {
     EXPECT_THAT(list, HasSubstr(part));
   }
   EXPECT_THAT(list, testing::Not(HasSubstr("\x1b")))
@@ -152,4 +153,4 @@ TEST_F(V4l2Identity, TheListNamesWhatTheConfigurationNeeds) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::v4l2

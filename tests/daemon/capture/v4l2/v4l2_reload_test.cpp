@@ -1,4 +1,5 @@
-// Cameras whose settings change while they stream.
+// SPDX-License-Identifier: BSD-3-Clause
+// Settings that change while cameras stream.
 #include <gmock/gmock.h>
 #include <linux/v4l2-controls.h>
 
@@ -9,18 +10,18 @@
 #include "daemon/pipeline/pipeline.h"
 #include "tests/support/camera_bench.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
 using namespace std::chrono_literals;
 using testing::ElementsAre;
 
-FakeControl control(std::uint32_t id, const char* title, int most, int preset) {
+FakeControl control(std::uint32_t id, const char* title, int maximum, int default_value) {
   FakeControl made;
   made.id = id;
   made.title = title;
-  made.most = most;
-  made.preset = made.value = preset;
+  made.maximum = maximum;
+  made.default_value = made.value = default_value;
   return made;
 }
 
@@ -30,9 +31,9 @@ int value(const FakeCamera& camera, std::uint32_t id) {
   return found == camera.controls.end() ? -1 : found->value;
 }
 
-class LiveControls : public testing::Test {
+class V4l2Reload : public testing::Test {
  protected:
-  LiveControls() {
+  V4l2Reload() {
     for (FakeCamera* camera : {bench_.left_camera, bench_.right_camera}) {
       camera->controls = {control(V4L2_CID_EXPOSURE_AUTO, "Auto Exposure", 3, 3),
                           control(V4L2_CID_EXPOSURE_ABSOLUTE, "Exposure Time, Absolute", 1000, 250),
@@ -57,7 +58,7 @@ class LiveControls : public testing::Test {
   int opens_before_ = 0;
 };
 
-TEST_F(LiveControls, AreSetBetweenTwoFrames) {
+TEST_F(V4l2Reload, NewControls_SetWhileStreaming) {
   bench_.config.v4l2.controls = {{"gain", 10}};
   run_a_while();
   V4l2Config other = bench_.config.v4l2;
@@ -74,10 +75,10 @@ TEST_F(LiveControls, AreSetBetweenTwoFrames) {
   expect_it_streamed_on();
 }
 
-TEST_F(LiveControls, ThoseNamedNoMoreGoBackToTheMakersValues) {
+TEST_F(V4l2Reload, RemovedControls_ResetToDefault) {
   bench_.config.v4l2.controls = {{"gain", 10}, {"exposure_time_absolute", 99}};
   run_a_while();
-  ASSERT_EQ(value(*bench_.left_camera, V4L2_CID_EXPOSURE_AUTO), 1) << "manual, for the value to count";
+  ASSERT_EQ(value(*bench_.left_camera, V4L2_CID_EXPOSURE_AUTO), 1) << "manual, so that the value applies";
   V4l2Config other = bench_.config.v4l2;
   other.controls.clear();
   bench_.pair->set_controls(other);
@@ -90,19 +91,19 @@ TEST_F(LiveControls, ThoseNamedNoMoreGoBackToTheMakersValues) {
   expect_it_streamed_on();
 }
 
-TEST_F(LiveControls, WhatDoesNotTakeIsTold) {
+TEST_F(V4l2Reload, ValueOutOfRange_Noted) {
   run_a_while();
   V4l2Config other = bench_.config.v4l2;
   other.controls = {{"gain", 300}};
   bench_.pair->set_controls(other);
   bench_.run(500);
-  EXPECT_EQ(bench_.left->report().note, "gain was set to 300 and is 100, allowed are 0 to 100");
+  EXPECT_EQ(bench_.left->report().note, "gain: set to 300, reads back 100 (range 0…100)");
   bench_.pair->set_controls(bench_.config.v4l2);
   bench_.run(500);
   EXPECT_EQ(bench_.left->report().note, "");
 }
 
-TEST_F(LiveControls, FromFollowToAutoBothCamerasExposeForThemselves) {
+TEST_F(V4l2Reload, FollowToAuto_BothAutomatic) {
   bench_.config.v4l2.exposure = ExposureMode::kFollow;
   run_a_while();
   ASSERT_EQ(value(*bench_.right_camera, V4L2_CID_EXPOSURE_AUTO), 1);
@@ -115,7 +116,7 @@ TEST_F(LiveControls, FromFollowToAutoBothCamerasExposeForThemselves) {
   expect_it_streamed_on();
 }
 
-TEST_F(LiveControls, ACameraThatIsAwayGetsThemWhenItComesBack) {
+TEST_F(V4l2Reload, UnpluggedCamera_SetAfterReplug) {
   bench_.config.v4l2.controls = {{"gain", 10}};
   run_a_while();
   bench_.video.plug(*bench_.right_camera, false);
@@ -146,13 +147,13 @@ class CountingBus final : public MessageBus {
 };
 
 // In real time, with the pipeline's threads.
-TEST(PipelineTakeOver, LeavesTheCamerasAloneUnlessTheyAreOthers) {
+TEST(PipelineTakeOver, SameCameras_KeepStreaming) {
   Config config;
   CameraBench bench(true);
   config.cameras = bench.config;
   config.cameras.fps = 100;
   for (FakeCamera* camera : {bench.left_camera, bench.right_camera}) {
-    camera->modes = {{fourcc('Y', 'U', 'Y', 'V'), {64, 48}, {100}}};
+    camera->modes = {{make_fourcc('Y', 'U', 'Y', 'V'), {64, 48}, {100}}};
     camera->start_latency_ns = 3'000'000;
   }
   config.matcher.disparities = 8;
@@ -193,8 +194,8 @@ TEST(PipelineTakeOver, LeavesTheCamerasAloneUnlessTheyAreOthers) {
   EXPECT_EQ(bench.video.mappings(), 0);
 }
 
-// One that was made and never took over leaves everything as it is.
-TEST(PipelineTakeOver, OneThatIsDiscardedHarmsNothing) {
+// A pipeline that never took over changes nothing.
+TEST(PipelineTakeOver, Discarded_NoEffect) {
   Config config;
   config.cameras.fps = 0;
   config.cameras.width = 160;
@@ -207,4 +208,4 @@ TEST(PipelineTakeOver, OneThatIsDiscardedHarmsNothing) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,4 +1,6 @@
-// The cameras as the daemon runs them: a thread for each, one that takes pairs, one that asks how they are.
+// SPDX-License-Identifier: BSD-3-Clause
+// Cameras as the daemon runs them: one thread for each camera, one consumer of pairs, one thread that reads
+// reports.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -8,19 +10,19 @@
 #include "daemon/capture/pair_queue.h"
 #include "tests/support/camera_bench.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
 using namespace std::chrono_literals;
 
-TEST(V4l2Threads, PairsComeThroughFaultsUnplugsAndRestarts) {
+TEST(V4l2Threads, FaultsAndReplugs_PairsContinue) {
   CameraBench bench(true);
   bench.config.fps = 200;
   bench.config.v4l2.sync = SyncMode::kStart;
-  bench.config.v4l2.max_sync_skew_ms = 0.001;  // which no start reaches, not even by chance
+  bench.config.v4l2.max_sync_skew_ms = 0.001;  // no start reaches this, not even by chance
   bench.config.v4l2.exposure = ExposureMode::kFollow;
   for (FakeCamera* camera : {bench.left_camera, bench.right_camera}) {
-    camera->modes = {{fourcc('Y', 'U', 'Y', 'V'), {64, 48}, {200}}};
+    camera->modes = {{make_fourcc('Y', 'U', 'Y', 'V'), {64, 48}, {200}}};
     camera->start_latency_ns = camera == bench.left_camera ? 3'000'000 : 5'400'000;
   }
   std::mutex log_mutex;
@@ -54,7 +56,7 @@ TEST(V4l2Threads, PairsComeThroughFaultsUnplugsAndRestarts) {
       while (!done) {
         left.report();
         right.report();
-        bench.pair->phase();
+        bench.pair->sync_report();
         std::this_thread::sleep_for(1ms);
       }
     });
@@ -63,12 +65,12 @@ TEST(V4l2Threads, PairsComeThroughFaultsUnplugsAndRestarts) {
       while (pairs < enough) std::this_thread::sleep_for(1ms);
     };
     wait_for_pairs(20);
-    for (int i = 0; i < 2000 && bench.pair->phase().restarts == 0; ++i) wait_for_pairs(1);
+    for (int i = 0; i < 2000 && bench.pair->sync_report().restarts == 0; ++i) wait_for_pairs(1);
     for (int round = 0; round < 4; ++round) {
       FakeCamera& camera = round % 2 == 0 ? *bench.left_camera : *bench.right_camera;
       CaptureThread& thread = round % 2 == 0 ? left : right;
       bench.video.plug(camera, false);
-      while (thread.report().state != "absent") std::this_thread::sleep_for(1ms);
+      while (thread.report().state != SourceState::kAbsent) std::this_thread::sleep_for(1ms);
       bench.video.plug(camera, true);
       wait_for_pairs(20);
     }
@@ -79,7 +81,7 @@ TEST(V4l2Threads, PairsComeThroughFaultsUnplugsAndRestarts) {
     done = true;
     reporter.join();
     pair_queue.clear();
-    EXPECT_GT(bench.pair->phase().restarts, 0);
+    EXPECT_GT(bench.pair->sync_report().restarts, 0);
     EXPECT_GE(bench.left->report().reconnects, 2);
     EXPECT_GE(bench.right->report().reconnects, 2);
   }
@@ -89,8 +91,9 @@ TEST(V4l2Threads, PairsComeThroughFaultsUnplugsAndRestarts) {
   EXPECT_EQ(bench.video.mappings(), 0);
 }
 
-// A camera that has gone gives back what waits at the desk, else it could never be set up again.
-TEST(V4l2Threads, TheFrameThatWaitsForAPartnerIsGivenBackWhenItsCameraGoes) {
+// The frame of an unplugged camera leaves the pair queue: the camera can only be set up again without frames
+// on loan.
+TEST(V4l2Threads, Unplug_WaitingFrameGivenBack) {
   CameraBench bench(true);
   bench.right_camera->plugged = false;
   bench.make();
@@ -99,7 +102,7 @@ TEST(V4l2Threads, TheFrameThatWaitsForAPartnerIsGivenBackWhenItsCameraGoes) {
   while (left.frames() < 3) std::this_thread::sleep_for(1ms);
   for (int round = 0; round < 2; ++round) {
     bench.video.plug(*bench.left_camera, false);
-    while (left.report().state != "absent") std::this_thread::sleep_for(1ms);
+    while (left.report().state != SourceState::kAbsent) std::this_thread::sleep_for(1ms);
     bench.video.plug(*bench.left_camera, true);
     const std::int64_t before = left.frames();
     while (left.frames() < before + 3) std::this_thread::sleep_for(1ms);
@@ -109,7 +112,7 @@ TEST(V4l2Threads, TheFrameThatWaitsForAPartnerIsGivenBackWhenItsCameraGoes) {
   pair_queue.clear();
 }
 
-TEST(PairQueue, HalfAFrameFollowsTheCamerasRate) {
+TEST(PairQueue, HalfFrameTolerance_FollowsRate) {
   struct Owner final : BufferOwner {
     void give_back(int) noexcept override {}
   } owner;
@@ -132,4 +135,4 @@ TEST(PairQueue, HalfAFrameFollowsTheCamerasRate) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::v4l2

@@ -1,4 +1,6 @@
-#include "tests/vm/uvcsim/pictures.h"
+// SPDX-License-Identifier: BSD-3-Clause
+// JPEG encoding and damage.
+#include "tests/vm/uvcsim/scene_images.h"
 
 #include <turbojpeg.h>
 
@@ -12,11 +14,11 @@ namespace {
 
 constexpr std::uint8_t kMarker = 0xff, kStartOfFrame = 0xc0, kHuffmanTables = 0xc4, kStartOfScan = 0xda;
 
-// Calls visit(marker, where it stands, bytes of the segment with its marker) for each segment before the
-// scan, until it returns false.
+// Calls visit(marker, offset, length of the segment with its marker) for each segment before the scan, until
+// it returns false.
 template <typename Visit>
 void for_each_segment(ByteSpan jpeg, Visit visit) {
-  std::size_t at = 2;  // after the marker that starts every JPEG
+  std::size_t at = 2;  // after the start marker
   while (at + 4 <= jpeg.size() && jpeg[at] == kMarker && jpeg[at + 1] != kStartOfScan) {
     const std::size_t length = 2 + (std::size_t{jpeg[at + 2]} << 8 | jpeg[at + 3]);
     if (!visit(jpeg[at + 1], at, length)) return;
@@ -40,21 +42,19 @@ void drop_huffman_tables(Bytes& jpeg) {
 
 }  // namespace
 
-Bytes webcam_jpeg(const GrayImage& picture) {
+Bytes webcam_jpeg(const GrayImage& image) {
   constexpr int kQuality = 85;
   const std::unique_ptr<void, int (*)(void*)> encoder(tjInitCompress(), tjDestroy);
   unsigned char* data = nullptr;
   unsigned long size = 0;
-  // Webcams send color; gray with empty color planes is the same to whoever wants brightness.
+  // Webcams send color; empty color planes give the same luma.
   const Bytes colorless(
-      static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(picture.height()) / 2, 128);
-  const unsigned char* planes[3] = {picture.row(0), colorless.data(), colorless.data()};
-  const int strides[3] = {static_cast<int>(picture.view().stride()), picture.width() / 2,
-                          picture.width() / 2};
-  if (tjCompressFromYUVPlanes(encoder.get(), planes, picture.width(), strides, picture.height(), TJSAMP_422,
+      static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()) / 2, 128);
+  const unsigned char* planes[3] = {image.row(0), colorless.data(), colorless.data()};
+  const int strides[3] = {static_cast<int>(image.view().stride()), image.width() / 2, image.width() / 2};
+  if (tjCompressFromYUVPlanes(encoder.get(), planes, image.width(), strides, image.height(), TJSAMP_422,
                               &data, &size, kQuality, 0) != 0) {
-    throw std::runtime_error(std::string("a image cannot be made into a JPEG: ") +
-                             tjGetErrorStr2(encoder.get()));
+    throw std::runtime_error(std::string("JPEG encoding failed: ") + tjGetErrorStr2(encoder.get()));
   }
   Bytes jpeg(data, data + size);
   tjFree(data);
@@ -62,7 +62,7 @@ Bytes webcam_jpeg(const GrayImage& picture) {
   return jpeg;
 }
 
-const Bytes& Pictures::get(const StreamFormat& format, std::int64_t frame, int gain_64, int offset) {
+const Bytes& SceneImages::get(const StreamFormat& format, std::int64_t frame, int gain_64, int offset) {
   const Look look{format.encoding, format.size, gain_64, offset};
   if (!(look == look_)) {
     for (Bytes& bytes : loop_) bytes.clear();
@@ -71,18 +71,18 @@ const Bytes& Pictures::get(const StreamFormat& format, std::int64_t frame, int g
   const int number = static_cast<int>(frame % kSceneFrames);
   Bytes& bytes = loop_[static_cast<std::size_t>(number)];
   if (bytes.empty()) {
-    const GrayImage picture = render_scene(eye_, format.size, number, gain_64, offset);
-    bytes = format.encoding == Encoding::kMjpeg ? webcam_jpeg(picture) : yuyv_bytes(picture);
+    const GrayImage image = render_scene(eye_, format.size, number, gain_64, offset);
+    bytes = format.encoding == Encoding::kMjpeg ? webcam_jpeg(image) : yuyv_bytes(image);
   }
   return bytes;
 }
 
-void Pictures::prepare(const StreamFormat& format, int gain_64, int offset) {
+void SceneImages::prepare(const StreamFormat& format, int gain_64, int offset) {
   for (int frame = 0; frame < kSceneFrames; ++frame) get(format, frame, gain_64, offset);
 }
 
 void corrupt_jpeg(Bytes& jpeg) {
-  constexpr std::uint8_t kRestart = 0xd3;  // a marker that must not be there
+  constexpr std::uint8_t kRestart = 0xd3;  // an unexpected marker
   const std::size_t middle = jpeg.size() / 2;
   for (std::size_t i = middle; i + 1 < std::min(jpeg.size(), middle + 64); i += 2) {
     jpeg[i] = kMarker;

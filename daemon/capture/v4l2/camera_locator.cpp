@@ -1,4 +1,6 @@
-#include "daemon/capture/v4l2/camera_finder.h"
+// SPDX-License-Identifier: BSD-3-Clause
+// Searching for cameras by port, serial number, or automatically.
+#include "daemon/capture/v4l2/camera_locator.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -6,13 +8,14 @@
 
 #include "daemon/capture/v4l2/video_device.h"
 
-namespace stereod {
+namespace stereod::v4l2 {
 namespace {
 
 constexpr std::string_view kSerial = "serial:";
 
-/// 0 if it does; EACCES or EPERM if this user may not know; else another error.
-int gives_pictures(VideoSystem& system, const VideoNode& node) {
+/// Returns 0 if the node captures images, EACCES or EPERM if the user may not open it, else another errno
+/// value.
+int capture_error(VideoSystem& system, const VideoNode& node) {
   VideoDevice device(system);
   if (const int error = device.open(node.node, false)) return error;
   DeviceCapability capability;
@@ -37,20 +40,20 @@ std::optional<CameraFault> find_automatically(VideoSystem& system, Side side, st
   std::vector<VideoNode> cameras;
   std::string refused;
   for (const VideoNode& candidate : system.nodes()) {
-    const auto is_its = [&](const VideoNode& other) {
-      return system.camera_of(other.node) == system.camera_of(candidate.node);
+    const auto is_same_camera = [&](const VideoNode& other) {
+      return system.camera_id(other.node) == system.camera_id(candidate.node);
     };
-    const int error = gives_pictures(system, candidate);
+    const int error = capture_error(system, candidate);
     if (is_refusal(error) && refused.empty()) refused = candidate.node;
     if (error != 0) continue;
-    if (std::none_of(cameras.begin(), cameras.end(), is_its)) cameras.push_back(candidate);
+    if (std::none_of(cameras.begin(), cameras.end(), is_same_camera)) cameras.push_back(candidate);
   }
   if (cameras.size() < 2 && !refused.empty()) return fault_of(SetupStage::kOpen, EACCES, refused);
   if (cameras.size() < 2) {
     const std::string found = cameras.empty() ? "none is" : "only " + cameras[0].node + " is";
     return CameraFault{
         CameraReason::kAmbiguous, SetupStage::kFind, 0,
-        "device auto needs two cameras, and " + found + " plugged in; plug them in or name the devices"};
+        "device auto needs two cameras, but " + found + " plugged in; plug them in, or name the devices"};
   }
   const VideoNode& chosen = cameras[side == Side::kLeft ? 0 : 1];
   node = chosen.node;
@@ -74,7 +77,7 @@ std::optional<CameraFault> find_camera(VideoSystem& system, Side side, const std
     const bool named =
         serial ? candidate.serial == name.substr(kSerial.size()) : is_link_name(candidate, name);
     if (!named) continue;
-    const int error = serial ? gives_pictures(system, candidate) : 0;
+    const int error = serial ? capture_error(system, candidate) : 0;
     if (is_refusal(error)) return fault_of(SetupStage::kOpen, error, candidate.node);
     if (error != 0) continue;
     node = candidate.node;
@@ -84,4 +87,29 @@ std::optional<CameraFault> find_camera(VideoSystem& system, Side side, const std
                           : "no camera is called " + name + "; plug it in, or see 'stereod --list-cameras'");
 }
 
-}  // namespace stereod
+std::optional<CameraFault> CameraLocator::locate(bool has_streamed) {
+  if (auto fault = find_camera(system_, side_, name_, node_, stable_name_)) {
+    pair_.claim_device(side_, "");
+    if (has_streamed && fault->reason == CameraReason::kNotFound) {
+      fault->reason = CameraReason::kUnplugged;
+      fault->sentence = "was unplugged: " + fault->sentence;
+    }
+    return fault;
+  }
+  if (!pair_.claim_device(side_, system_.camera_id(node_))) {
+    return CameraFault{CameraReason::kSameCamera, SetupStage::kFind, 0,
+                       node_ + " belongs to the camera that is the " +
+                           (side_ == Side::kLeft ? "right" : "left") +
+                           " one; name two cameras in cameras.v4l2"};
+  }
+  conflict_since_ns_ = 0;
+  return std::nullopt;
+}
+
+bool CameraLocator::conflict_may_pass(std::int64_t now_ns) noexcept {
+  constexpr std::int64_t kPatience = 500'000'000;
+  if (conflict_since_ns_ == 0) conflict_since_ns_ = now_ns;
+  return now_ns - conflict_since_ns_ < kPatience;
+}
+
+}  // namespace stereod::v4l2

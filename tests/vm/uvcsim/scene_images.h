@@ -1,4 +1,5 @@
-// Images of the scene as a camera sends them.
+// SPDX-License-Identifier: BSD-3-Clause
+// Images of the scene as the camera sends them.
 #pragma once
 
 #include <array>
@@ -9,16 +10,16 @@
 
 namespace stereod::uvcsim {
 
-/// A JPEG of the image, without Huffman tables, as many webcams leave them out. Throws std::runtime_error.
-Bytes webcam_jpeg(const GrayImage& picture);
+/// Returns a JPEG without Huffman tables, as many webcams send it. @throws std::runtime_error
+Bytes webcam_jpeg(const GrayImage& image);
 
-/// Keeps the images of the loop, because making one takes longer than a frame on an emulated processor.
-class Pictures {
+/// Caches the images of the loop: on an emulated processor, encoding one takes longer than a frame period.
+class SceneImages {
  public:
-  explicit Pictures(Eye eye) : eye_(eye) {}
-  /// The bytes of a frame ≥ 0; valid until the next call.
+  explicit SceneImages(Eye eye) : eye_(eye) {}
+  /// Returns the bytes of frame @p frame [≥ 0]; valid until the next call.
   const Bytes& get(const StreamFormat& format, std::int64_t frame, int gain_64, int offset);
-  /// Makes all of them now.
+  /// Encodes the whole loop now.
   void prepare(const StreamFormat& format, int gain_64, int offset);
 
  private:
@@ -33,7 +34,7 @@ class Pictures {
   std::array<Bytes, kSceneFrames> loop_;
 };
 
-/// Damage done to a JPEG.
+// Damage to a JPEG.
 void corrupt_jpeg(Bytes& jpeg);
 void change_jpeg_height(Bytes& jpeg, int by);
 
