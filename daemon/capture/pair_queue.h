@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -43,6 +44,13 @@ class PairQueue {
   /// stays for the next taker.
   std::optional<LeasedPair> wait_pair(const std::atomic<bool>& cancelled) noexcept;
   void wake_consumer() noexcept;
+
+  /// Blocks until a pair is ready, the queue is closed, or @p timeout [ms, ≥ 0] has passed. Returns the newest pair, or
+  /// nothing. For a consumer without a thread of its own.
+  std::optional<LeasedPair> wait_pair_for(std::chrono::milliseconds timeout) noexcept;
+
+  /// Returns whether the queue is closed and its last pair was taken.
+  bool is_finished() const noexcept;
 
   /// Somebody waits for a pair and there is none.
   bool consumer_waits() const noexcept;
