@@ -1,4 +1,5 @@
-// The report as a browser shows it.
+// SPDX-License-Identifier: BSD-3-Clause
+// The report in a browser.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,12 +14,12 @@
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_directory.h"
 
-namespace stereod {
+namespace stereod::calib {
 namespace {
 
 using testing::HasSubstr;
 
-// Says, as text in the page, what a person would see of it.
+// Appends a text to the page that describes what is visible.
 constexpr const char* kLook = R"(<script>
 (async () => {
   const seen = [];
@@ -27,12 +28,12 @@ constexpr const char* kLook = R"(<script>
     probe.src = image.getAttribute('href') || image.getAttribute('src');
     try { await probe.decode(); } catch (error) { }
     const box = image.getBoundingClientRect();
-    seen.push(`picture ${probe.naturalWidth}x${probe.naturalHeight} ${box.width > 200 && box.height > 150 ? 'shown' : 'hidden'};`);
+    seen.push(`image ${probe.naturalWidth}x${probe.naturalHeight} ${box.width > 200 && box.height > 150 ? 'shown' : 'hidden'};`);
   }
   for (const map of document.querySelectorAll('svg.map')) {
     seen.push(`map ${map.getBoundingClientRect().width > 200 ? 'shown' : 'hidden'}, ${map.querySelectorAll('circle').length} corners;`);
   }
-  for (const figure of document.querySelectorAll('.figure b')) seen.push(`figure ${figure.innerText.replace(/\s+/g, ' ')};`);
+  for (const stat of document.querySelectorAll('.stat b')) seen.push(`stat ${stat.innerText.replace(/\s+/g, ' ')};`);
   seen.push(`verdict ${document.querySelector('h1').textContent};`);
   seen.push(`${document.querySelectorAll('table.pairs tr').length - 1} pairs;`);
   seen.push(`${document.querySelectorAll('table.depth tr').length - 1} depths;`);
@@ -48,8 +49,8 @@ class Browser {
   static bool is_there() { return std::system("command -v chromium >/dev/null 2>&1") == 0; }
   explicit Browser(const TemporaryDirectory& directory) : directory_(directory) {}
 
-  // The page's time goes on by `time_ms` as fast as the page has nothing to do; decoding images takes none
-  // of it.
+  // Runs the page for `time_ms` of virtual time, which advances while the page is idle; decoding images does not
+  // advance it.
   ProgramRun run(std::vector<std::string> more, const std::string& page, int time_ms = 10'000) const {
     std::vector<std::string> arguments{"--headless",
                                        "--no-sandbox",
@@ -67,18 +68,18 @@ class Browser {
   const TemporaryDirectory& directory_;
 };
 
-TEST(ReportInABrowser, ShowsPicturesAndNumbers) {
+TEST(Report, InBrowser_ImagesAndNumbers) {
   if (!Browser::is_there()) GTEST_SKIP() << "the Debian package chromium is not here";
   const Board board{9, 6, 0.025};
   const StereoRigEstimate cameras = known_cameras({320, 240});
   const BoardScene scene(cameras, board);
-  std::vector<ImagePair> pictures;
+  std::vector<ImagePair> images;
   for (const BoardPose& pose : varied_poses(board, 16)) {
-    pictures.push_back(scene.render(pose, pictures.size()));
-    pictures.back().name = "pair " + std::to_string(pictures.size());
+    images.push_back(scene.render(pose, images.size()));
+    images.back().name = "pair " + std::to_string(images.size());
   }
-  const SolveResult result = solve(pictures, {board, board.square_m, LensChoice::kPinhole});
-  const std::string page = report_page(result, assess(result), pictures);
+  const SolveResult result = solve(images, {board, board.square_m, LensChoice::kPinhole});
+  const std::string page = report_page(result, assess(result), images);
   TemporaryDirectory directory;
   write_text_file(directory / "report.html", page);
   std::string looked_at = page;
@@ -86,7 +87,7 @@ TEST(ReportInABrowser, ShowsPicturesAndNumbers) {
   write_text_file(directory / "looked_at.html", looked_at);
 
   const Browser browser(directory);
-  // On a busy machine that time can be over before the images are decoded.
+  // On a busy machine the virtual time can end before the images are decoded.
   ProgramRun dump;
   std::size_t begin = std::string::npos;
   for (int time_ms = 10'000; begin == std::string::npos && time_ms <= 10'000'000; time_ms *= 10) {
@@ -98,9 +99,9 @@ TEST(ReportInABrowser, ShowsPicturesAndNumbers) {
   EXPECT_THAT(seen, HasSubstr("image 320x240 shown; image 320x240 shown; map"));
   const std::string corners = std::to_string(16 * 54);
   EXPECT_THAT(seen,
-              HasSubstr("map shown, " + corners + " corners; map shown, " + corners + " corners; figure"));
-  EXPECT_THAT(seen, testing::ContainsRegex(
-                        "figure 0\\.[0-9][0-9] ?px; figure 0\\.[0-9][0-9] ?px; figure [0-9]+ ?%; figure"));
+              HasSubstr("map shown, " + corners + " corners; map shown, " + corners + " corners; stat"));
+  EXPECT_THAT(
+      seen, testing::ContainsRegex("stat 0\\.[0-9][0-9] ?px; stat 0\\.[0-9][0-9] ?px; stat [0-9]+ ?%; stat"));
   EXPECT_THAT(seen, HasSubstr("verdict good;"));
   EXPECT_THAT(seen, HasSubstr("16 pairs; 5 depths; fits;"));
 
@@ -109,13 +110,13 @@ TEST(ReportInABrowser, ShowsPicturesAndNumbers) {
   if (const char* keep = std::getenv("STEREOD_KEEP_SCREENSHOT")) {
     std::filesystem::copy_file(shot, keep, std::filesystem::copy_options::overwrite_existing);
   }
-  const GrayImage picture = read_gray(shot);
-  EXPECT_EQ(picture.width(), 1100) << draw.err;
-  // Drawn: the two images alone have more shades than a page without them would.
+  const GrayImage image = read_gray(shot);
+  EXPECT_EQ(image.width(), 1100) << draw.err;
+  // The two camera images have more shades than a page without them.
   std::set<std::uint8_t> shades;
-  for (int y = 0; y < picture.height(); ++y) shades.insert(picture.row(y), picture.row(y) + picture.width());
+  for (int y = 0; y < image.height(); ++y) shades.insert(image.row(y), image.row(y) + image.width());
   EXPECT_GT(shades.size(), 150U);
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::calib
