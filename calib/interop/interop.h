@@ -24,7 +24,7 @@ void write_ros(const std::filesystem::path& left, const std::filesystem::path& r
 /// computed.
 Calibration read_kalibr(const std::filesystem::path& camchain);
 
-/// Facts that OpenCV's files may lack.
+/// Values that OpenCV's files may lack.
 struct OpenCvHints {
   Size image;            ///< 0×0: taken from the file (write_opencv() stores it)
   double unit_m = 1;     ///< length of 1 in the files [m]

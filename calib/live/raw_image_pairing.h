@@ -22,7 +22,7 @@ class RawImagePairing {
   /// kMaxImageSide × kMaxImageSide pixels. Memory is allocated only after these checks.
   bool add(Side side, std::span<const std::byte> message);
 
-  /// Returns the newest pair of two images of the same size, without a name; nothing if there is none.
+  /// Returns the newest pair of two images of the same size, without a name; nothing if no pair is ready.
   std::optional<ImagePair> take();
 
  private:

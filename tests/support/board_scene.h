@@ -37,7 +37,7 @@ class BoardScene {
 };
 
 /// Returns a deep copy, for a test that modifies images.
-GrayImage copy_of(const GrayImage& picture);
+GrayImage copy_of(const GrayImage& image);
 std::vector<ImagePair> copy_of(const std::vector<ImagePair>& pairs);
 
 /// Returns the pose of a board with its center at @p middle for the left camera, facing it, then rotated by @p turn

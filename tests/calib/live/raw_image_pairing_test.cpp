@@ -35,8 +35,8 @@ Bytes encoded(const image_t& image) {
   return bytes;
 }
 
-// Offsets in the encoded message: fingerprint 8, utime 8, then six 32-bit fields up to `size`, then the data.
-constexpr std::size_t kSizeField = 8 + 8 + 4 * 4, kData = kSizeField + 4;
+// Offset of `size` in the encoded message: fingerprint and utime of 8 bytes, then four fields of 4 bytes.
+constexpr std::size_t kSizeField = 2 * 8 + 4 * 4;
 
 void write_int(Bytes& bytes, std::size_t at, std::uint32_t value) {
   for (std::size_t i = 0; i < 4; ++i) bytes.at(at + i) = static_cast<std::byte>(value >> (24 - 8 * i));
@@ -118,6 +118,7 @@ TEST(RawImagePairing, DifferentSizes_NotPaired) {
 
 TEST(RawImagePairing, LyingLayout_NothingAllocated) {
   const Bytes good = encoded(gray_image(1'000'000));
+  ASSERT_EQ(good.at(kSizeField + 3), std::byte{48});
   struct Case {
     const char* name;
     Bytes bytes;
