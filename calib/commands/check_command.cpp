@@ -71,7 +71,8 @@ Measurement measure_on_board(const Calibration& calibration, const std::vector<I
   if (count == 0) throw CalibrationError("no pair shows the complete board in both images");
   if (behind == count) {
     throw SwappedCamerasError(
-        "with this calibration the board is behind the cameras in every pair; check that left and right are not exchanged");
+        "with this calibration the board is behind the cameras in every pair; check that left and right are not "
+        "exchanged");
   }
   result.epipolar_error_px /= count;
   result.scale_error /= count;
