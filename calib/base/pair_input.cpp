@@ -1,24 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/base/pair_input.h"
 
 #include <algorithm>
 
 #include "calib/base/errors.h"
-#include "core/base/text.h"
 #include "daemon/base/file_error.h"
 #include "daemon/base/progress.h"
 #include "daemon/capture/replay/recording.h"
 #include "daemon/imagefile/read_image.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-GrayImage part_of(const GrayImage& picture, int first_column, int width) {
-  GrayImage result(width, picture.height());
-  for (int y = 0; y < picture.height(); ++y) {
-    std::copy_n(picture.row(y) + first_column, width, result.row(y));
+std::string to_string(Size size) { return std::to_string(size.width) + "×" + std::to_string(size.height); }
+
+GrayImage columns_of(const GrayImage& image, int first_column, int width) {
+  GrayImage result(width, image.height());
+  for (int y = 0; y < image.height(); ++y) {
+    std::copy_n(image.row(y) + first_column, width, result.row(y));
   }
   return result;
 }
@@ -26,19 +28,19 @@ GrayImage part_of(const GrayImage& picture, int first_column, int width) {
 ImagePair split(const fs::path& file) {
   const GrayImage both = read_gray(file);
   if (both.width() < 2 || both.width() % 2 != 0) {
-    throw FileError(file.string() + ": is " + std::to_string(both.width()) +
-                    " pixels wide, which cannot be cut into two equal halves");
+    throw FileError(file.string() + ": width is " + std::to_string(both.width()) +
+                    " px; a side-by-side image needs an even width of at least 2 px");
   }
   const int half = both.width() / 2;
-  return {file.filename().string(), part_of(both, 0, half), part_of(both, half, half)};
+  return {file.filename().string(), columns_of(both, 0, half), columns_of(both, half, half)};
 }
 
 std::vector<PairFiles> pair_files(const PairInput& input) {
   if (!input.directory.empty()) return find_pairs(input.directory);
   if (input.left.size() != input.right.size()) {
-    throw UsageError("there are " + std::to_string(input.left.size()) + " left images and " +
+    throw UsageError("found " + std::to_string(input.left.size()) + " left and " +
                      std::to_string(input.right.size()) +
-                     " right ones; each needs its partner, in the same order");
+                     " right images; give the same number of both, in the same order");
   }
   std::vector<PairFiles> files;
   for (std::size_t i = 0; i < input.left.size(); ++i) files.push_back({input.left[i], input.right[i]});
@@ -49,15 +51,15 @@ void check_usage(const PairInput& input) {
   const bool lists = !input.left.empty() || !input.right.empty();
   const int ways = (lists ? 1 : 0) + (input.side_by_side.empty() ? 0 : 1) + (input.directory.empty() ? 0 : 1);
   if (ways == 1) return;
-  throw UsageError(std::string(ways == 0 ? "there are no images" : "images are given in two ways") +
-                   "; name a directory of pairs, or --left and --right files, or --side-by-side files");
+  throw UsageError(std::string(ways == 0 ? "no images given" : "images given in more than one way") +
+                   "; give a directory of pairs, or --left and --right files, or --side-by-side files");
 }
 
 void require_size(const std::string& file, Size found, const ImagePair& first) {
   if (found == first.left.size()) return;
-  throw FileError(file + ": has " + to_string(found) + " pixels, but the first left image has " +
+  throw FileError(file + ": size is " + to_string(found) + " px, but the first left image has " +
                   to_string(first.left.size()) +
-                  "; all images must have the size that the cameras will run at");
+                  " px; all images must have the size that the cameras run at");
 }
 
 }  // namespace
@@ -104,10 +106,10 @@ std::vector<ImagePair> read_pairs(const PairInput& input) {
   if (std::all_of(pairs.begin(), pairs.end(),
                   [](const ImagePair& p) { return same_pixels(p.left, p.right); })) {
     throw FileError(pairs.front().name +
-                    ": left and right are the same image; give the left camera's images as left and the "
-                    "right camera's as right");
+                    ": left and right are the same image in every pair; give the left camera's images as "
+                    "left and the right camera's as right");
   }
   return pairs;
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/board/board.h"
 
 #include <charconv>
@@ -5,7 +6,7 @@
 
 #include "calib/base/errors.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
@@ -25,7 +26,7 @@ Board parse_board(std::string_view text) {
     if (rows.ec == std::errc() && rows.ptr == end && fits(board.columns) && fits(board.rows)) return board;
   }
   throw UsageError("--board: found '" + plain +
-                   "', allowed are the inner corners across and down, like 9x6, from 3 to 50 each, or auto");
+                   "', allowed are inner corners across and down, like 9x6 (3…50 each), or auto");
 }
 
 double parse_length(std::string_view text, const std::string& option) {
@@ -40,7 +41,7 @@ double parse_length(std::string_view text, const std::string& option) {
     std::string_view unit = text.substr(static_cast<std::size_t>(parsed.ptr - text.data()));
     while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
     for (const Unit& known : kUnits) {
-      // A product with 0.001 would not be the nearest number to what is meant.
+      // Division: 0.001 is not representable, so that a product would be off by a rounding step.
       const double meters = known.meters == 1e-3   ? number / 1000
                             : known.meters == 1e-2 ? number / 100
                                                    : number * known.meters;
@@ -48,10 +49,10 @@ double parse_length(std::string_view text, const std::string& option) {
     }
   }
   throw UsageError(option + ": found '" + std::string(text) +
-                   "', allowed is a length with its unit, like 25mm, 2.5cm, 0.025m or 1in, from 1mm to 10m");
+                   "', allowed is a length with its unit, like 25mm, 2.5cm, 0.025m or 1in (1mm…10m)");
 }
 
-std::string in_words(const Board& board) {
+std::string to_string(const Board& board) {
   return std::to_string(board.columns) + "×" + std::to_string(board.rows) + " inner corners";
 }
 
@@ -61,4 +62,4 @@ Vector3 board_point(const Board& board, std::size_t index) {
           static_cast<double>(index / columns) * board.square_m, 0};
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

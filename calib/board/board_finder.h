@@ -1,4 +1,5 @@
-// Finding a chessboard in a image.
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds a chessboard in an image.
 #pragma once
 
 #include <optional>
@@ -6,22 +7,22 @@
 #include "calib/board/board.h"
 #include "core/base/image.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 struct FoundBoard {
-  Corners corners;           ///< in board order, to a few hundredths of a pixel
-  double edge_width_px = 0;  ///< of the squares' edges, from dark to light: about 2 where sharp
+  Corners corners;           ///< in board order (in_board_order()), to a few hundredths of a pixel
+  double edge_width_px = 0;  ///< edge_width_px() of the board; 0 with Effort::kLive
 };
 
 enum class Effort {
-  kThorough,  ///< seconds, if need be, for images that are there for good
-  kLive,      ///< milliseconds: the next frame is another chance
+  kThorough,  ///< up to seconds per image, for images on disk
+  kLive,      ///< milliseconds per image: the next frame is another chance
 };
 
-/// The whole board or nothing.
-std::optional<FoundBoard> find_board(GrayView picture, const Board& board, Effort effort);
+/// Returns @p board if all its corners are found in @p image.
+std::optional<FoundBoard> find_board(GrayView image, const Board& board, Effort effort);
 
-/// The largest chessboard of at least 3×3 inner corners, its square 0; nothing if there is none.
-std::optional<Board> find_any_board(GrayView picture);
+/// Returns the largest chessboard with at least 3×3 inner corners in @p image, with square_m = 0.
+std::optional<Board> find_any_board(GrayView image);
 
-}  // namespace stereod
+}  // namespace stereod::calib

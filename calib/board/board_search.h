@@ -1,28 +1,29 @@
-// Boards in all the images of a session.
+// SPDX-License-Identifier: BSD-3-Clause
+// Searches all images of a calibration for the board.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "calib/base/pair_input.h"
-#include "calib/board/board_finder.h"
-#include "calib/solve/pair_geometry.h"
+#include "calib/board/board.h"
 
-namespace stereod {
+namespace stereod::calib {
 
-/// One pair's boards, or why there are none.
+/// The board in one image pair.
 struct PairSearch {
-  BoardPair corners;  ///< same corner, same place; empty lists where not found
-  double left_edge_px = 0, right_edge_px = 0;
-  std::string problem;  ///< empty: found in both and matched up
+  BoardPair corners;                           ///< a list is empty where no board was found
+  double left_edge_px = 0, right_edge_px = 0;  ///< edge_width_px() of the board
+  std::string problem;                         ///< why the pair has no usable board; empty if it has one
 };
 
-/// The board that most of some images show. Throws CalibrationError if none shows any.
-Board guess_board(const std::vector<ImagePair>& pictures);
+/// Returns the board that most of a sample of @p images show.
+/// @throws CalibrationError if no sampled image shows a board.
+Board guess_board(const std::vector<ImagePair>& images);
 
-/// Looks for `board` in every image, on all CPUs. Throws CalibrationError if no image shows it, or if
-/// some images, looked at first, show a board of another size, which it names.
-std::vector<PairSearch> search_boards(const std::vector<ImagePair>& pictures, const Board& board);
+/// Searches every image for @p board, using all CPUs. Returns one entry per pair, in order.
+/// @throws CalibrationError if no image shows the board, or if a sample of @p images shows a board of another
+/// size, which the sentence names.
+std::vector<PairSearch> search_boards(const std::vector<ImagePair>& images, const Board& board);
 
-}  // namespace stereod
+}  // namespace stereod::calib

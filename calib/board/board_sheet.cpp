@@ -1,50 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/board/board_sheet.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "calib/base/errors.h"
-#include "calib/report/html.h"
+#include "calib/base/text.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
-constexpr double kMargin_mm = 8;   // white round the board, and what printers leave out
-constexpr double kFooter_mm = 18;  // for the ruler and the words
+constexpr double kMargin_mm = 8;   // white border, which also covers what printers cannot reach
+constexpr double kFooter_mm = 18;  // ruler and label
 constexpr double kRuler_mm = 100;
-constexpr std::array<Paper, 7> kKnown = {{{"a4", 210, 297},
-                                          {"a3", 297, 420},
-                                          {"a2", 420, 594},
-                                          {"a1", 594, 841},
-                                          {"a0", 841, 1189},
-                                          {"letter", 215.9, 279.4},
-                                          {"tabloid", 279.4, 431.8}}};
+constexpr std::array<Paper, 7> kPaperSizes = {{{"a4", 210, 297},
+                                               {"a3", 297, 420},
+                                               {"a2", 420, 594},
+                                               {"a1", 594, 841},
+                                               {"a0", 841, 1189},
+                                               {"letter", 215.9, 279.4},
+                                               {"tabloid", 279.4, 431.8}}};
 
 double width_mm(const Board& board) { return 1000 * board.square_m * (board.columns + 1); }
 double height_mm(const Board& board) { return 1000 * board.square_m * (board.rows + 1); }
 
-Paper needed(const Board& board) {
+Paper min_paper(const Board& board) {
   return {"fit", std::max(width_mm(board), kRuler_mm) + 2 * kMargin_mm,
           height_mm(board) + 2 * kMargin_mm + kFooter_mm};
 }
 
-// But for capital letters.
-bool alike(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char one, unsigned char other) {
-    return std::tolower(one) == std::tolower(other);
-  });
+bool equal_ignoring_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char l, unsigned char r) { return std::tolower(l) == std::tolower(r); });
 }
 
-// Upright or on its side.
-std::optional<Paper> turned_to_fit(const Paper& paper, const Paper& least) {
-  const Paper aside{paper.name, paper.height_mm, paper.width_mm};
-  for (const Paper& way : {paper, aside}) {
-    if (way.width_mm >= least.width_mm && way.height_mm >= least.height_mm) return way;
+// Returns the paper upright or landscape, if it is large enough one way.
+std::optional<Paper> oriented_to_fit(const Paper& paper, const Paper& minimum) {
+  const Paper landscape{paper.name, paper.height_mm, paper.width_mm};
+  for (const Paper& way : {paper, landscape}) {
+    if (way.width_mm >= minimum.width_mm && way.height_mm >= minimum.height_mm) return way;
   }
   return std::nullopt;
 }
@@ -54,10 +52,10 @@ class Canvas {
  public:
   virtual ~Canvas() = default;
   virtual void black(double x, double y, double w, double h) = 0;
-  virtual void text(double x, double y, double size_mm, const std::string& words) = 0;
+  virtual void text(double x, double y, double size_mm, const std::string& content) = 0;
 };
 
-std::string size_in_words(const Board& board) { return fixed(1000 * board.square_m, 2) + " mm"; }
+std::string square_size(const Board& board) { return fixed(1000 * board.square_m, 2) + " mm"; }
 
 void draw(Canvas& canvas, const Board& board, const Paper& paper) {
   const double square = 1000 * board.square_m;
@@ -75,10 +73,10 @@ void draw(Canvas& canvas, const Board& board, const Paper& paper) {
     canvas.black(ruler_left + 10 * cm - (cm == 10 ? 0.2 : 0), ruler_y, 0.2, length);
   }
   canvas.text(ruler_left, ruler_y + 6, 2.8,
-              "This line is 100 mm long if the page was printed in true size (100 %).");
+              "This line is 100 mm long if the page is printed at 100 % scale.");
   canvas.text(ruler_left, ruler_y + 10, 2.8,
-              "Squares of " + size_in_words(board) + ", " + std::to_string(board.columns) + " x " +
-                  std::to_string(board.rows) + " inner corners. Glue it to something flat and stiff.");
+              "Squares of " + square_size(board) + ", " + std::to_string(board.columns) + " x " +
+                  std::to_string(board.rows) + " inner corners. Glue the page to a flat, stiff plate.");
 }
 
 class SvgCanvas final : public Canvas {
@@ -87,9 +85,9 @@ class SvgCanvas final : public Canvas {
     body_ += "<rect x=\"" + fixed(x, 4) + "\" y=\"" + fixed(y, 4) + "\" width=\"" + fixed(w, 4) +
              "\" height=\"" + fixed(h, 4) + "\"/>\n";
   }
-  void text(double x, double y, double size_mm, const std::string& words) override {
+  void text(double x, double y, double size_mm, const std::string& content) override {
     body_ += "<text x=\"" + fixed(x, 4) + "\" y=\"" + fixed(y, 4) + "\" font-size=\"" + fixed(size_mm, 2) +
-             "\" font-family=\"sans-serif\">" + escaped(words) + "</text>\n";
+             "\" font-family=\"sans-serif\">" + escape_html(content) + "</text>\n";
   }
   std::string file(const Paper& paper) const {
     const std::string w = fixed(paper.width_mm, 2), h = fixed(paper.height_mm, 2);
@@ -109,9 +107,9 @@ class PdfCanvas final : public Canvas {
     body_ +=
         points(x) + " " + points(paper_.height_mm - y - h) + " " + points(w) + " " + points(h) + " re f\n";
   }
-  void text(double x, double y, double size_mm, const std::string& words) override {
+  void text(double x, double y, double size_mm, const std::string& content) override {
     std::string safe;
-    for (const char c : words) {
+    for (const char c : content) {
       if (c == '(' || c == ')' || c == '\\') safe += '\\';
       safe += c;
     }
@@ -149,23 +147,23 @@ class PdfCanvas final : public Canvas {
 }  // namespace
 
 Paper paper_for(std::string_view name, const Board& board) {
-  const Paper least = needed(board);
-  if (alike(name, "fit")) return least;
-  const auto known =
-      std::find_if(kKnown.begin(), kKnown.end(), [&](const Paper& paper) { return alike(paper.name, name); });
-  if (known == kKnown.end()) {
+  const Paper minimum = min_paper(board);
+  if (equal_ignoring_case(name, "fit")) return minimum;
+  const auto known = std::find_if(kPaperSizes.begin(), kPaperSizes.end(),
+                                  [&](const Paper& paper) { return equal_ignoring_case(paper.name, name); });
+  if (known == kPaperSizes.end()) {
     throw UsageError("--paper: found '" + std::string(name) + "', allowed are " + std::string(kPapers));
   }
-  if (const auto paper = turned_to_fit(*known, least)) return *paper;
+  if (const auto paper = oriented_to_fit(*known, minimum)) return *paper;
   std::string remedy = "choose smaller squares or --paper fit";
-  for (const Paper& paper : kKnown) {
-    if (!turned_to_fit(paper, least)) continue;
+  for (const Paper& paper : kPaperSizes) {
+    if (!oriented_to_fit(paper, minimum)) continue;
     remedy = "choose smaller squares or --paper " + std::string(paper.name);
     break;
   }
-  throw UsageError("--paper: a board of " + in_words(board) + " with squares of " + size_in_words(board) +
-                   " needs " + fixed(least.width_mm, 0) + "×" + fixed(least.height_mm, 0) +
-                   " mm with its margins, which " + std::string(name) + " does not have; " + remedy);
+  throw UsageError("--paper: a board with " + to_string(board) + " and squares of " + square_size(board) +
+                   " needs " + fixed(minimum.width_mm, 0) + "×" + fixed(minimum.height_mm, 0) +
+                   " mm with its margins, more than " + std::string(name) + " has; " + remedy);
 }
 
 std::string board_svg(const Board& board, const Paper& paper) {
@@ -180,4 +178,4 @@ std::string board_pdf(const Board& board, const Paper& paper) {
   return canvas.file();
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/board/corner_order.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
-// The corner list as a grid.
+// A corner list as a grid.
 struct Grid {
   const Corners& corners;
   int columns;
@@ -22,17 +23,17 @@ struct Grid {
 Point2 minus(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
 double cross(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
 
-Point2 along_rows(const Corners& corners, const Board& board) {
+Point2 row_direction(const Corners& corners, const Board& board) {
   return minus(corners[static_cast<std::size_t>(board.columns) - 1], corners.front());
 }
 
-// The board seen in a mirror, as a list that runs the other way looks.
+// Returns whether the list runs counterclockwise: the board as a mirror shows it.
 bool is_mirrored(const Corners& corners, const Board& board) {
   const Grid grid{corners, board.columns};
   const int right = board.columns - 1, bottom = board.rows - 1;
   const Point2 diagonal = minus(grid.at(right, bottom), grid.at(0, 0));
-  const Point2 other = minus(grid.at(0, bottom), grid.at(right, 0));
-  return cross(diagonal, other) < 0;
+  const Point2 antidiagonal = minus(grid.at(0, bottom), grid.at(right, 0));
+  return cross(diagonal, antidiagonal) < 0;
 }
 
 Corners mirrored(const Corners& corners, const Board& board) {
@@ -44,14 +45,14 @@ Corners mirrored(const Corners& corners, const Board& board) {
   return result;
 }
 
-double gray_at(GrayView picture, double x, double y) {
-  const int column = std::clamp(static_cast<int>(std::lround(x)), 0, picture.width() - 1);
-  const int row = std::clamp(static_cast<int>(std::lround(y)), 0, picture.height() - 1);
-  return picture.at(column, row);
+double gray_at(GrayView image, double x, double y) {
+  const int column = std::clamp(static_cast<int>(std::lround(x)), 0, image.width() - 1);
+  const int row = std::clamp(static_cast<int>(std::lround(y)), 0, image.height() - 1);
+  return image.at(column, row);
 }
 
-// Mean brightness of the squares of the first one's color, minus that of the others.
-double brightness_of_first(GrayView picture, const Board& board, const Corners& corners) {
+// Returns the mean brightness of the squares with the first square's color, minus that of the other squares.
+double first_square_contrast(GrayView image, const Board& board, const Corners& corners) {
   const Grid grid{corners, board.columns};
   double sum[2] = {0, 0}, count[2] = {0, 0};
   for (int row = 0; row + 1 < board.rows; ++row) {
@@ -59,14 +60,14 @@ double brightness_of_first(GrayView picture, const Board& board, const Corners& 
       const Point2 a = grid.at(column, row), b = grid.at(column + 1, row + 1);
       const Point2 c = grid.at(column + 1, row), d = grid.at(column, row + 1);
       const int color = (row + column) % 2;
-      sum[color] += gray_at(picture, (a.x + b.x + c.x + d.x) / 4, (a.y + b.y + c.y + d.y) / 4);
+      sum[color] += gray_at(image, (a.x + b.x + c.x + d.x) / 4, (a.y + b.y + c.y + d.y) / 4);
       count[color] += 1;
     }
   }
   return sum[0] / count[0] - sum[1] / count[1];
 }
 
-// A square board after a quarter turn.
+// Returns the corners of a square board after a quarter turn.
 Corners quarter_turned(const Corners& corners, int side) {
   const Grid grid{corners, side};
   Corners result;
@@ -85,9 +86,9 @@ Corners half_turned(Corners corners) {
   return corners;
 }
 
-Corners in_board_order(GrayView picture, const Board& board, Corners corners) {
+Corners in_board_order(GrayView image, const Board& board, Corners corners) {
   if (is_mirrored(corners, board)) corners = mirrored(corners, board);
-  if (!board.ambiguous() && brightness_of_first(picture, board, corners) > 0) {
+  if (!board.ambiguous() && first_square_contrast(image, board, corners) > 0) {
     corners = half_turned(std::move(corners));
   }
   return corners;
@@ -102,13 +103,13 @@ std::optional<Corners> turned_like(const Corners& reference, const Board& board,
     candidates.push_back(quarter_turned(candidates[1], board.columns));
   }
   const auto turn = [&](const Corners& c) {
-    return angle_between(along_rows(reference, board), along_rows(c, board));
+    return angle_between(row_direction(reference, board), row_direction(c, board));
   };
   const auto best = std::min_element(candidates.begin(), candidates.end(),
                                      [&](const Corners& a, const Corners& b) { return turn(a) < turn(b); });
-  const double most = (square ? 30.0 : 60.0) * std::numbers::pi / 180;
-  if (turn(*best) > most) return std::nullopt;
+  const double max_turn = (square ? 30.0 : 60.0) * std::numbers::pi / 180;
+  if (turn(*best) > max_turn) return std::nullopt;
   return *best;
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -7,7 +8,7 @@
 #include "calib/commands/commands.h"
 #include "daemon/base/file.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
@@ -22,30 +23,29 @@ void run(const Flags& flags) {
   const Paper paper = paper_for(flags.paper, board);
   const bool svg = flags.output.extension() == ".svg";
   if (!svg && flags.output.extension() != ".pdf") {
-    throw UsageError(flags.output.string() + ": the board is written as .pdf or .svg; name it so");
+    throw UsageError(flags.output.string() + ": unknown extension; use .pdf or .svg");
   }
   write_text_file(flags.output, svg ? board_svg(board, paper) : board_pdf(board, paper));
-  std::printf("%s: %s, squares of %g mm; print it in true size and measure a square afterwards\n",
-              flags.output.c_str(), in_words(board).c_str(), 1000 * board.square_m);
+  std::printf("%s: %s, squares of %g mm; print at 100 %% scale and measure a square\n", flags.output.c_str(),
+              to_string(board).c_str(), 1000 * board.square_m);
   if (board.ambiguous()) {
     std::printf(
-        "This board looks the same after half a turn, so both cameras must be the same way up; one count "
-        "even "
-        "and one odd, like 9x6, is better.\n");
+        "warning: this board looks the same after half a turn, so both cameras must be the same way up; a board "
+        "with one even and one odd count, like 9x6, has no such restriction\n");
   }
 }
 
 }  // namespace
 
 void add_board_command(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("board", "write a chessboard to print, in true size");
+  CLI::App* command = app.add_subcommand("board", "write a chessboard to print in true size");
   auto flags = std::make_shared<Flags>();
-  command->add_option("--board", flags->board, "inner corners across and down: where four squares meet")
+  command->add_option("--board", flags->board, "inner corners (where four squares meet) across and down")
       ->capture_default_str();
-  command->add_option("--square", flags->square, "side of a square, with its unit")->capture_default_str();
+  command->add_option("--square", flags->square, "side of a square, with unit")->capture_default_str();
   command->add_option("--paper", flags->paper, std::string(kPapers))->capture_default_str();
-  command->add_option("-o,--output", flags->output, ".pdf or .svg")->capture_default_str();
+  command->add_option("-o,--output", flags->output, "output file, .pdf or .svg")->capture_default_str();
   command->callback([flags] { run(*flags); });
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <unistd.h>
 
 #include <atomic>
@@ -7,6 +8,7 @@
 #include <filesystem>
 #include <future>
 #include <memory>
+#include <optional>
 
 #include "calib/base/errors.h"
 #include "calib/board/board_finder.h"
@@ -21,7 +23,7 @@
 #include "daemon/base/file_error.h"
 #include "daemon/imagefile/write_image.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
@@ -38,7 +40,7 @@ struct Flags {
 volatile std::sig_atomic_t interrupted = 0;
 extern "C" void on_interrupt(int) { interrupted = 1; }
 
-// One line that changes, on a terminal; elsewhere a new line for each new advice.
+// The status on stderr: one updated line on a terminal, otherwise a new line for each new instruction.
 class StatusLine {
  public:
   void show(const LiveSnapshot& snapshot) {
@@ -61,17 +63,17 @@ class StatusLine {
   std::string last_;
 };
 
-// The board in both images at once.
-BoardPair look(const ImagePair& pair, const Board& board) {
+// Finds the board in both images, one thread each.
+BoardPair find_in_both(const ImagePair& pair, const Board& board) {
   auto right =
       std::async(std::launch::async, [&] { return find_board(pair.right.view(), board, Effort::kLive); });
   const auto left = find_board(pair.left.view(), board, Effort::kLive);
-  const auto other = right.get();
+  const auto found_right = right.get();
   BoardPair corners;
   if (left) corners.left = left->corners;
-  if (other) corners.right = other->corners;
-  if (left && other) {
-    // What cannot be told apart counts as not seen.
+  if (found_right) corners.right = found_right->corners;
+  if (left && found_right) {
+    // A board of ambiguous orientation counts as not found.
     corners.right = turned_like(corners.left, board, corners.right).value_or(Corners{});
   }
   return corners;
@@ -84,9 +86,9 @@ void write_pair(const fs::path& directory, std::size_t number, const ImagePair& 
   write_png(directory / ("right_" + name), pair.right.view());
 }
 
-LiveSnapshot waiting_moment(const Flags& flags, const std::vector<ImagePair>& taken) {
+LiveSnapshot waiting_snapshot(const Flags& flags, const std::vector<ImagePair>& taken) {
   LiveSnapshot snapshot;
-  snapshot.words = flags.feed.waiting_words();
+  snapshot.words = flags.feed.waiting_message();
   snapshot.taken = static_cast<int>(taken.size());
   snapshot.wanted = flags.pairs;
   return snapshot;
@@ -94,21 +96,21 @@ LiveSnapshot waiting_moment(const Flags& flags, const std::vector<ImagePair>& ta
 
 std::vector<ImagePair> collect(const Flags& flags, const Board& board, FrameFeed& feed, LivePage* page) {
   constexpr std::chrono::milliseconds kPatience{2000};
-  std::optional<CaptureGuide> guide;  // once it is known how large the images are
+  std::optional<CaptureGuide> guide;  // made when the first pair gives the image size
   Size size;
   StatusLine line;
   std::vector<ImagePair> taken;
   while (interrupted == 0 && !feed.finished()) {
     std::optional<ImagePair> pair = feed.next(kPatience);
     if (!pair) {
-      if (!feed.finished()) line.show(waiting_moment(flags, taken));
+      if (!feed.finished()) line.show(waiting_snapshot(flags, taken));
       continue;
     }
     if (!guide) size = pair->left.size(), guide.emplace(board, size, flags.pairs);
     if (pair->left.size() != size) {
-      throw CalibrationError("the images changed their size while calibrating; begin again");
+      throw CalibrationError("the image size changed during the capture; start again");
     }
-    const BoardPair corners = look(*pair, board);
+    const BoardPair corners = find_in_both(*pair, board);
     const CaptureGuide::Instruction instruction = guide->observe(corners.left, corners.right);
     const LiveSnapshot snapshot = snapshot_of(*guide, instruction, corners.left, corners.right, size);
     line.show(snapshot);
@@ -125,24 +127,30 @@ std::vector<ImagePair> collect(const Flags& flags, const Board& board, FrameFeed
   return taken;
 }
 
-int run(const Flags& flags) {
-  const SolveOptions options = solve_options(flags.board);
-  if (!options.board) {
-    throw UsageError("--board: say which board it is, like 9x6; 'auto' would be too slow to guide you live");
-  }
+// Throws before the capture if a file could not be written after it.
+void check_outputs(const Flags& flags) {
   require_writable(flags.output.calibration);
   require_distinct({flags.output.calibration, flags.output.report}, {flags.feed.config});
   if (!flags.output.report.empty()) require_writable(flags.output.report);
-  if (!flags.keep.empty()) {
-    std::error_code error;
-    fs::create_directories(flags.keep, error);
-    if (!fs::is_empty(flags.keep, error) && !error) {
-      throw FileError(
-          flags.keep.string() +
-          ": the directory is not empty, and its images would be mixed with the new ones; name a new one");
-    }
-    require_writable(flags.keep / "left_00.png");
+  if (flags.keep.empty()) return;
+  std::error_code error;
+  fs::create_directories(flags.keep, error);
+  if (!fs::is_empty(flags.keep, error) && !error) {
+    throw FileError(
+        flags.keep.string() +
+        ": the directory is not empty; give a new or empty directory, so that old and new images do not mix");
   }
+  require_writable(flags.keep / "left_00.png");
+}
+
+int run(const Flags& flags) {
+  const SolveOptions options = solve_options(flags.board);
+  if (!options.board) {
+    throw UsageError(
+        "--board: found 'auto', allowed are inner corners across and down, like 9x6; detecting the board is too "
+        "slow for live capture");
+  }
+  check_outputs(flags);
   const std::unique_ptr<FrameFeed> feed = open_feed(flags.feed);
   std::unique_ptr<LivePage> page;
   if (flags.port > 0) {
@@ -152,42 +160,46 @@ int run(const Flags& flags) {
                  page->port(), page->port(), page->port());
   }
   std::fputs(
-      "Pairs are taken by themselves while the board is held still. Ctrl-C ends taking and calibrates.\n",
+      "Pairs are taken automatically while the board is still. Ctrl-C ends the capture and calibrates.\n",
       stderr);
   std::signal(SIGINT, on_interrupt);
-  const std::vector<ImagePair> pictures = collect(flags, *options.board, *feed, page.get());
+  const std::vector<ImagePair> images = collect(flags, *options.board, *feed, page.get());
   std::signal(SIGINT, SIG_DFL);
-  std::printf("%zu pairs taken\n", pictures.size());
-  return solve_and_write(pictures, options, flags.output);
+  std::printf("%zu pairs taken\n", images.size());
+  return solve_and_write(images, options, flags.output);
 }
 
 }  // namespace
 
 void add_capture_command(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
-      "capture", "calibrate live: guides you while you move the board before the cameras, then solves");
+      "capture", "calibrate live: guide you while you move the board in front of the cameras, then solve");
   auto flags = std::make_shared<Flags>();
   flags->board.board = "9x6";
   add_feed_options(*command, flags->feed);
-  command->add_option("--board", flags->board.board, "inner corners across and down")->capture_default_str();
+  command
+      ->add_option("--board", flags->board.board, "inner corners (where four squares meet) across and down")
+      ->capture_default_str();
   command
       ->add_option("--square", flags->board.square,
-                   "side of a square as measured on the print, with its unit: 25mm")
+                   "side of a square as measured on the print, with unit: 25mm")
       ->required();
   command->add_option("--lens", flags->board.lens, "lens model: " + std::string(kLensChoices))
       ->capture_default_str();
-  command->add_option("--pairs", flags->pairs, "pairs to take, more if parts of the image stay empty")
+  command
+      ->add_option("--pairs", flags->pairs,
+                   "pairs to take; up to twice as many until the board has covered the image")
       ->check(CLI::Range(kMinPairs, 200))
       ->capture_default_str();
-  command->add_option("--port", flags->port, "of the live page on 127.0.0.1; 0: no page")
+  command->add_option("--port", flags->port, "port of the live page on 127.0.0.1; 0: no page")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
-  command->add_option("--keep", flags->keep, "a directory to keep the taken pairs in, for solve");
+  command->add_option("--keep", flags->keep, "directory to save the taken pairs in, for solve");
   flags->output.calibration = "calibration.yaml";
-  command->add_option("-o,--output", flags->output.calibration, "the calibration, as stereod reads it")
+  command->add_option("-o,--output", flags->output.calibration, "calibration file for stereod")
       ->capture_default_str();
-  command->add_option("--report", flags->output.report, "a page about the result, one .html file");
+  command->add_option("--report", flags->output.report, "report about the result, one HTML file");
   command->callback([flags, &status] { status = run(*flags); });
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

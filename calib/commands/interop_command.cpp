@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <charconv>
 #include <cstdio>
 #include <memory>
@@ -10,7 +11,7 @@
 #include "daemon/base/file.h"
 #include "daemon/config/calibration_file.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
@@ -37,16 +38,16 @@ Size parse_size(const std::string& text) {
     const auto fits = [](int side) { return side >= 1 && side <= kMaxImageFileSide; };
     if (height.ec == std::errc() && height.ptr == end && fits(size.width) && fits(size.height)) return size;
   }
-  throw UsageError("--image-size: found '" + text + "', allowed is width x height in pixels, like 640x480");
+  throw UsageError("--image-size: found '" + text + "', allowed is WIDTHxHEIGHT in pixels, like 640x480");
 }
 
 Calibration imported(const ImportFlags& flags) {
   const int ways =
       (flags.ros.empty() ? 0 : 1) + (flags.opencv.empty() ? 0 : 1) + (flags.kalibr.empty() ? 0 : 1);
-  if (ways != 1) throw UsageError("say which one file format to import: --ros, --opencv or --kalibr");
+  if (ways != 1) throw UsageError("give exactly one file format: --ros, --opencv or --kalibr");
   if (flags.opencv.empty() && (!flags.image_size.empty() || !flags.unit.empty() || flags.fisheye)) {
     throw UsageError(
-        "--image-size, --unit and --fisheye belong to --opencv; the other files say it themselves");
+        "--image-size, --unit and --fisheye apply to --opencv only; the other formats contain these values");
   }
   if (!flags.ros.empty()) return read_ros(flags.ros[0], flags.ros[1]);
   if (!flags.kalibr.empty()) return read_kalibr(flags.kalibr);
@@ -58,23 +59,22 @@ Calibration imported(const ImportFlags& flags) {
 }
 
 void add_import(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("import", "take over another program's calibration");
+  CLI::App* command = app.add_subcommand("import", "convert the calibration of another program");
   auto flags = std::make_shared<ImportFlags>();
-  command->add_option("--ros", flags->ros, "camera_info YAML of the left camera, of the right one")
+  command->add_option("--ros", flags->ros, "camera_info YAML files of the left and the right camera")
       ->expected(2);
   command
       ->add_option("--opencv", flags->opencv,
-                   "intrinsics and extrinsics, as OpenCV's stereo_calib writes them")
+                   "intrinsics and extrinsics files, as OpenCV's sample stereo_calib writes them")
       ->expected(2);
-  command->add_option("--kalibr", flags->kalibr, "camchain YAML of Kalibr; cam0 is the left camera");
+  command->add_option("--kalibr", flags->kalibr, "Kalibr camchain YAML file; cam0 is the left camera");
   command->add_option("--image-size", flags->image_size,
-                      "with --opencv: like 640x480, if the file does not say it");
+                      "with --opencv: WIDTHxHEIGHT, like 640x480, if the file lacks it");
   command->add_option("--unit", flags->unit,
-                      "with --opencv: the length that is 1 in the files, like 25mm where the board's square "
-                      "was; default 1m");
-  command->add_flag("--fisheye", flags->fisheye, "with --opencv: the lenses are of the fisheye model");
-  command->add_option("-o,--output", flags->output, "the calibration, as stereod reads it")
-      ->capture_default_str();
+                      "with --opencv: length of 1 in the files, like 25mm if the side of a square was 1; "
+                      "default 1m");
+  command->add_flag("--fisheye", flags->fisheye, "with --opencv: the files use the fisheye model");
+  command->add_option("-o,--output", flags->output, "calibration file for stereod")->capture_default_str();
   command->callback([flags] {
     std::vector<fs::path> read{flags->kalibr};
     read.insert(read.end(), flags->ros.begin(), flags->ros.end());
@@ -82,22 +82,24 @@ void add_import(CLI::App& app) {
     require_distinct({flags->output}, read);
     const Calibration calibration = imported(*flags);
     write_calibration(flags->output, calibration);
-    std::printf("%s: images of %d×%d, focal length %.1f px, baseline %.2f mm\n", flags->output.c_str(),
+    std::printf("%s: image size %d×%d px, focal length %.1f px, baseline %.2f mm\n", flags->output.c_str(),
                 calibration.image.width, calibration.image.height, calibration.left.projection.fx,
                 1000 * calibration.baseline_m);
   });
 }
 
 void add_export(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("export", "write a calibration for other programs");
+  CLI::App* command = app.add_subcommand("export", "convert a calibration for other programs");
   auto flags = std::make_shared<ExportFlags>();
   command->add_option("CALIBRATION", flags->calibration, "calibration.yaml")->required();
-  command->add_option("--ros", flags->ros, "camera_info YAML of the left camera, of the right one")
+  command->add_option("--ros", flags->ros, "camera_info YAML files of the left and the right camera")
       ->expected(2);
-  command->add_option("--opencv", flags->opencv, "intrinsics and extrinsics of OpenCV: .yml, .xml or .json")
+  command
+      ->add_option("--opencv", flags->opencv, "OpenCV intrinsics and extrinsics files, .yml, .xml or .json")
       ->expected(2);
   command->callback([flags] {
-    if (flags->ros.empty() && flags->opencv.empty()) throw UsageError("say what to write: --ros or --opencv");
+    if (flags->ros.empty() && flags->opencv.empty())
+      throw UsageError("give an output format: --ros or --opencv");
     std::vector<fs::path> written = flags->ros;
     written.insert(written.end(), flags->opencv.begin(), flags->opencv.end());
     require_distinct(written, {flags->calibration});
@@ -109,9 +111,9 @@ void add_export(CLI::App& app) {
 
 }  // namespace
 
-void add_exchange_commands(CLI::App& app, int&) {
+void add_interop_commands(CLI::App& app, int&) {
   add_import(app);
   add_export(app);
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

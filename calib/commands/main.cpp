@@ -1,4 +1,5 @@
-// stereo-calibrate: from images of a chessboard to the daemon's calibration, and what surrounds it.
+// SPDX-License-Identifier: BSD-3-Clause
+// stereo-calibrate: computes and checks the calibration of a stereo camera.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -11,29 +12,33 @@
 #include "daemon/base/file_error.h"
 #include "daemon/lcm/handle.h"
 
+namespace stereod::calib {
+
 namespace {
 
-int say(int status, std::string sentence) {
+int fail(int status, std::string sentence) {
   std::replace(sentence.begin(), sentence.end(), '\n', ' ');
   std::fprintf(stderr, "stereo-calibrate: %s\n", sentence.c_str());
   return status;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+// OpenCV reports errors as exceptions; its own messages would repeat them on stderr.
+void silence_opencv() {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
-  int status = stereod::kExitGood;
-  CLI::App app("stereo-calibrate: calibrates a pair of cameras for stereod", "stereo-calibrate");
+}
+
+int run(int argc, char** argv) {
+  silence_opencv();
+  int status = kExitGood;
+  CLI::App app("stereo-calibrate: calibrates a stereo camera for stereod", "stereo-calibrate");
   app.require_subcommand(1);
-  app.footer(
-      "Exit status: 0 good, 1 the result should not be used, 2 wrong input, 3 failure of the machine.");
-  stereod::add_board_command(app, status);
-  stereod::add_capture_command(app, status);
-  stereod::add_solve_command(app, status);
-  stereod::add_check_command(app, status);
-  stereod::add_exchange_commands(app, status);
+  app.footer("Exit status: 0 success, 1 the result should not be used, 2 invalid input, 3 system error.");
+  add_board_command(app, status);
+  add_capture_command(app, status);
+  add_solve_command(app, status);
+  add_check_command(app, status);
+  add_interop_commands(app, status);
   try {
     app.parse(argc, argv);
     return status;
@@ -42,16 +47,22 @@ int main(int argc, char** argv) {
   } catch (const CLI::CallForAllHelp& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return say(stereod::kExitBadInput, std::string(error.what()) + "; see --help");
-  } catch (const stereod::UsageError& error) {
-    return say(stereod::kExitBadInput, error.what());
-  } catch (const stereod::FileError& error) {
-    return say(stereod::kExitBadInput, error.what());
-  } catch (const stereod::CalibrationError& error) {
-    return say(stereod::kExitBadInput, error.what());
-  } catch (const stereod::BusError& error) {
-    return say(error.permanent() ? stereod::kExitBadInput : stereod::kExitFailure, error.what());
+    return fail(kExitBadInput, std::string(error.what()) + "; see --help");
+  } catch (const UsageError& error) {
+    return fail(kExitBadInput, error.what());
+  } catch (const FileError& error) {
+    return fail(kExitBadInput, error.what());
+  } catch (const CalibrationError& error) {
+    return fail(kExitBadInput, error.what());
+  } catch (const BusError& error) {
+    return fail(error.permanent() ? kExitBadInput : kExitFailure, error.what());
   } catch (const std::exception& error) {
-    return say(stereod::kExitFailure, error.what());
+    return fail(kExitFailure, error.what());
   }
 }
+
+}  // namespace
+
+}  // namespace stereod::calib
+
+int main(int argc, char** argv) { return stereod::calib::run(argc, argv); }

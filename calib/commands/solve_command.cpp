@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/commands/solve_command.h"
 
 #include <cstdio>
@@ -6,10 +7,11 @@
 #include "calib/base/errors.h"
 #include "calib/commands/commands.h"
 #include "calib/report/report.h"
-#include "daemon/base/file.h"
+#include "calib/report/summary.h"
+#include "daemon/base/text_file.h"
 #include "daemon/config/calibration_file.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
@@ -33,19 +35,19 @@ SolveOptions solve_options(const BoardFlags& flags) {
   return options;
 }
 
-int solve_and_write(const std::vector<ImagePair>& pictures, const SolveOptions& options,
+int solve_and_write(const std::vector<ImagePair>& images, const SolveOptions& options,
                     const SolveOutput& output) {
   require_writable(output.calibration);
   if (!output.report.empty()) require_writable(output.report);
-  const SolveResult result = solve(pictures, options);
+  const SolveResult result = solve(images, options);
   const Assessment assessment = assess(result);
   std::fputs(summary_text(result, assessment).c_str(), stdout);
   if (!output.report.empty()) {
-    write_text_file(output.report, report_page(result, assessment, pictures));
+    write_text_file(output.report, report_page(result, assessment, images));
     std::printf("report: %s\n", output.report.c_str());
   }
   if (assessment.verdict.grade == Grade::kDoAgain) {
-    std::printf("calibration: not written, because it should be done again; %s was not touched\n",
+    std::printf("calibration: not written because of the verdict; %s is unchanged\n",
                 output.calibration.c_str());
     return kExitBadResult;
   }
@@ -55,30 +57,29 @@ int solve_and_write(const std::vector<ImagePair>& pictures, const SolveOptions& 
 }
 
 void add_solve_command(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("solve", "calibrate from images of a chessboard");
+  CLI::App* command = app.add_subcommand("solve", "calibrate from image files of a chessboard");
   auto flags = std::make_shared<Flags>();
   command->add_option(
-      "FOLDER", flags->input.directory,
+      "DIRECTORY", flags->input.directory,
       "pairs like left_00.png and right_00.png, or directories left and right with numbered images");
-  command->add_option("--left", flags->input.left, "the left camera's images, in order");
-  command->add_option("--right", flags->input.right, "the right camera's images, in the same order");
+  command->add_option("--left", flags->input.left, "images of the left camera, in order");
+  command->add_option("--right", flags->input.right, "images of the right camera, in the same order");
   command->add_option("--side-by-side", flags->input.side_by_side,
-                      "images whose left half is the left camera's, right half the right one's");
+                      "images that contain the left and the right image side by side");
   command
       ->add_option("--board", flags->board.board,
-                   "inner corners across and down, like 9x6: where four squares meet; auto finds out")
+                   "inner corners (where four squares meet) across and down, like 9x6; auto detects them")
       ->capture_default_str();
   command
       ->add_option("--square", flags->board.square,
-                   "side of a square as measured on the print, with its unit: 25mm, 2.5cm, 0.025m, 1in")
+                   "side of a square as measured on the print, with unit: 25mm, 2.5cm, 0.025m, 1in")
       ->required();
   command->add_option("--lens", flags->board.lens, "lens model: " + std::string(kLensChoices))
       ->capture_default_str();
   flags->output.calibration = "calibration.yaml";
-  command->add_option("-o,--output", flags->output.calibration, "the calibration, as stereod reads it")
+  command->add_option("-o,--output", flags->output.calibration, "calibration file for stereod")
       ->capture_default_str();
-  command->add_option("--report", flags->output.report,
-                      "a page about the result for a browser, one .html file");
+  command->add_option("--report", flags->output.report, "report about the result, one HTML file");
   command->callback([flags, &status] {
     const SolveOptions options = solve_options(flags->board);
     require_writable(flags->output.calibration);
@@ -87,4 +88,4 @@ void add_solve_command(CLI::App& app, int& status) {
   });
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,4 +1,5 @@
-// Calibrating, with the files that come of it.
+// SPDX-License-Identifier: BSD-3-Clause
+// Solves for a calibration and writes its files.
 #pragma once
 
 #include <filesystem>
@@ -6,26 +7,26 @@
 
 #include "calib/solve/solve.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 struct SolveOutput {
   std::filesystem::path calibration;
-  std::filesystem::path report;  ///< empty: none
+  std::filesystem::path report;  ///< empty: no report
 };
 
-/// The options that say which board, square and lens, as they stand on the command line.
+/// Board, square and lens as given on the command line.
 struct BoardFlags {
   std::string board = "auto";
   std::string square;
   std::string lens = "pinhole";
 };
 
-/// Throws UsageError.
+/// @throws UsageError if a value is invalid.
 SolveOptions solve_options(const BoardFlags& flags);
 
-/// Solves, prints the summary, writes the report and, unless the verdict is to do it again, the calibration.
-/// Returns the status to end with.
-int solve_and_write(const std::vector<ImagePair>& pictures, const SolveOptions& options,
+/// Solves, prints the summary, and writes the report and, unless the verdict is "do again", the calibration.
+/// Returns the exit status.
+int solve_and_write(const std::vector<ImagePair>& images, const SolveOptions& options,
                     const SolveOutput& output);
 
-}  // namespace stereod
+}  // namespace stereod::calib

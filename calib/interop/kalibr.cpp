@@ -1,13 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
 
 #include "calib/interop/interop.h"
+#include "calib/interop/interop_checks.h"
 #include "core/geometry/stereo_rectification.h"
 #include "daemon/config/yaml_section.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
@@ -22,9 +24,8 @@ CameraModel read_camera(YamlSection section) {
   m.lens = lens == "equidistant" ? LensModel::kFisheye : LensModel::kPinhole;
   const std::vector<double> size = section.required_numbers("resolution", {2});
   for (const double side : size) {
-    if (!(side >= 1 && side <= kMaxImageFileSide && side == std::floor(side))) {
-      section.fail("resolution",
-                   "allowed are two whole numbers from 1 to " + std::to_string(kMaxImageFileSide));
+    if (!(side >= 1 && side <= kMaxWidth_px && side == std::floor(side))) {
+      section.fail("resolution", "allowed are two integers, 1…" + std::to_string(kMaxWidth_px));
     }
   }
   m.image = {static_cast<int>(size[0]), static_cast<int>(size[1])};
@@ -34,7 +35,7 @@ CameraModel read_camera(YamlSection section) {
   return m;
 }
 
-// cam1.T_cn_cnm1: four rows of four numbers, from cam0's coordinates to cam1's.
+// Reads cam1.T_cn_cnm1: a 4×4 matrix from cam0's coordinates to cam1's.
 StereoPose read_pose(const YAML::Node& root, const std::filesystem::path& file) {
   StereoPose pose;
   try {
@@ -51,11 +52,11 @@ StereoPose read_pose(const YAML::Node& root, const std::filesystem::path& file) 
     const double last[4] = {0, 0, 0, 1};
     for (std::size_t column = 0; column < 4; ++column) {
       if (rows[3].size() != 4 || rows[3][column].as<double>() != last[column]) {
-        throw FileError(file.string() + ": cam1.T_cn_cnm1: its last row must be 0, 0, 0, 1");
+        throw FileError(file.string() + ": cam1.T_cn_cnm1: the last row must be 0, 0, 0, 1");
       }
     }
   } catch (const YAML::Exception&) {
-    throw FileError(file.string() + ": cam1.T_cn_cnm1: four rows of four numbers are needed");
+    throw FileError(file.string() + ": cam1.T_cn_cnm1: must be four rows of four numbers");
   }
   const auto finite = [](double number) { return std::isfinite(number); };
   const Vector3& t = pose.translation_m;
@@ -65,7 +66,7 @@ StereoPose read_pose(const YAML::Node& root, const std::filesystem::path& file) 
   }
   pose.rotation = exact_rotation(pose.rotation);
   if (!is_rotation(pose.rotation)) {
-    throw FileError(file.string() + ": cam1.T_cn_cnm1: its first three columns are no rotation");
+    throw FileError(file.string() + ": cam1.T_cn_cnm1: the first three columns are not a rotation");
   }
   return pose;
 }
@@ -77,16 +78,16 @@ Calibration read_kalibr(const std::filesystem::path& camchain) {
   YamlSection root(camchain, node);
   const CameraModel left = read_camera(root.required_section("cam0"));
   const CameraModel right = read_camera(root.required_section("cam1"));
-  refuse_absurd(left, "left", camchain);
-  refuse_absurd(right, "right", camchain);
+  require_plausible(left, "left", camchain);
+  require_plausible(right, "right", camchain);
   if (left.image != right.image) {
-    throw FileError(camchain.string() + ": cam0 and cam1 have different resolutions; they must be the same");
+    throw FileError(camchain.string() + ": cam0 and cam1 have different resolutions; they must be equal");
   }
   try {
-    return sound_or_refused(rectified_pair(left, right, read_pose(node, camchain)), camchain);
-  } catch (const std::invalid_argument& refused) {
-    throw FileError(camchain.string() + ": " + refused.what());
+    return validated(rectified_pair(left, right, read_pose(node, camchain)), camchain);
+  } catch (const std::invalid_argument& error) {
+    throw FileError(camchain.string() + ": " + error.what());
   }
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <filesystem>
 #include <opencv2/core.hpp>
@@ -6,38 +7,39 @@
 #include <vector>
 
 #include "calib/interop/interop.h"
+#include "calib/interop/interop_checks.h"
 #include "core/geometry/stereo_rectification.h"
-#include "daemon/base/file.h"
 #include "daemon/base/file_error.h"
+#include "daemon/base/text_file.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-// A file of OpenCV's, open for reading.
+// An OpenCV FileStorage file, open for reading.
 class Storage {
  public:
   explicit Storage(const fs::path& file) : file_(file) {
-    if (!fs::is_regular_file(file)) throw FileError(file.string() + ": the file does not exist");
+    if (!fs::is_regular_file(file)) throw FileError(file.string() + ": there is no such file");
     try {
       if (storage_.open(file.string(), cv::FileStorage::READ)) return;
     } catch (const cv::Exception&) {
     }
-    throw FileError(file.string() + ": is no file of OpenCV's FileStorage (.yml, .xml or .json)");
+    throw FileError(file.string() + ": not a file of OpenCV's FileStorage (.yml, .xml or .json)");
   }
 
   bool has(const char* name) const { return !storage_[name].empty(); }
 
-  // A matrix of as many numbers as one of `counts` says, row by row.
+  // Reads a matrix, row by row. The number of elements must be one of `counts`.
   std::vector<double> numbers(const char* name, const std::vector<std::size_t>& counts) const {
     cv::Mat matrix;
     try {
       storage_[name] >> matrix;
     } catch (const cv::Exception&) {
     }
-    if (matrix.empty()) fail(name, "is missing, or no matrix");
+    if (matrix.empty()) fail(name, "missing or not a matrix");
     if (matrix.channels() != 1 || !cv::checkRange(matrix)) fail(name, "allowed are finite numbers");
     cv::Mat wide;
     matrix.convertTo(wide, CV_64F);
@@ -45,24 +47,26 @@ class Storage {
     for (const std::size_t count : counts) {
       if (values.size() == count) return values;
     }
-    fail(name, "has " + std::to_string(values.size()) + " numbers, which is not what this matrix has");
+    std::string allowed;
+    for (const std::size_t count : counts) allowed += (allowed.empty() ? "" : ", ") + std::to_string(count);
+    fail(name, "found " + std::to_string(values.size()) + " numbers, allowed are " + allowed);
   }
 
-  double number(const char* name, double least, double most) const {
+  double number(const char* name, double minimum, double maximum) const {
     const cv::FileNode node = storage_[name];
     const double value = node.isInt() || node.isReal() ? static_cast<double>(node) : std::nan("");
-    if (value >= least && value <= most) return value;
+    if (value >= minimum && value <= maximum) return value;
     std::ostringstream allowed;
-    allowed << "allowed is a number from " << least << " to " << most;
+    allowed << "allowed is a number from " << minimum << " to " << maximum;
     fail(name, allowed.str());
   }
 
-  int whole_number(const char* name, int least, int most) const {
-    return static_cast<int>(number(name, least, most));
+  int integer(const char* name, int minimum, int maximum) const {
+    return static_cast<int>(number(name, minimum, maximum));
   }
 
-  [[noreturn]] void fail(const char* name, const std::string& complaint) const {
-    throw FileError(file_.string() + ": " + name + ": " + complaint);
+  [[noreturn]] void fail(const char* name, const std::string& problem) const {
+    throw FileError(file_.string() + ": " + name + ": " + problem);
   }
 
  private:
@@ -84,18 +88,18 @@ Matrix3 read_rotation(const Storage& file, const char* name) {
   Matrix3 rotation;
   std::copy(values.begin(), values.end(), rotation.m.begin());
   rotation = exact_rotation(rotation);
-  if (!is_rotation(rotation)) file.fail(name, "is no rotation");
+  if (!is_rotation(rotation)) file.fail(name, "not a rotation");
   return rotation;
 }
 
-// Of the right camera to the left one, meters.
+// Reads T, the translation from the left camera's coordinates to the right one's [m].
 Vector3 read_translation(const Storage& file, double unit_m) {
   const std::vector<double> t = file.numbers("T", {3});
-  const double apart_m = std::hypot(t[0], t[1], t[2]) * unit_m;
-  if (!(apart_m >= kMinBaseline_m && apart_m <= kMaxBaseline_m)) {
+  const double distance_m = std::hypot(t[0], t[1], t[2]) * unit_m;
+  if (!(distance_m >= kMinBaseline_m && distance_m <= kMaxBaseline_m)) {
     std::ostringstream found;
-    found << "the cameras are " << apart_m << " m apart, allowed is " << kMinBaseline_m << " to "
-          << kMaxBaseline_m << "; say with --unit what a length of 1 in the file is";
+    found << "the cameras are " << distance_m << " m apart, allowed is " << kMinBaseline_m << " to "
+          << kMaxBaseline_m << "; give the length of 1 in the file with --unit";
     file.fail("T", found.str());
   }
   return {t[0] * unit_m, t[1] * unit_m, t[2] * unit_m};
@@ -105,10 +109,9 @@ Size image_size(const Storage& file, const OpenCvHints& hints, const fs::path& n
   if (hints.image.width > 0) return hints.image;
   if (!file.has("image_width") || !file.has("image_height")) {
     throw FileError(name.string() +
-                    ": does not say how large the images are; say --image-size, like 640x480");
+                    ": does not contain the image size; give it with --image-size, like 640x480");
   }
-  return {file.whole_number("image_width", 1, kMaxImageFileSide),
-          file.whole_number("image_height", 1, kMaxImageFileSide)};
+  return {file.integer("image_width", 1, kMaxWidth_px), file.integer("image_height", 1, kMaxWidth_px)};
 }
 
 cv::Mat matrix_of(const std::vector<double>& values, int rows) {
@@ -123,7 +126,7 @@ cv::Mat projection_matrix(const RectifiedProjection& p, double shift) {
   return matrix_of({p.fx, 0, p.cx, shift, 0, p.fy, p.cy, 0, 0, 0, 1, 0}, 3);
 }
 
-// Through a string, so that the file appears as a whole.
+// Writes to memory; the caller writes the file atomically.
 cv::FileStorage open_to_write(const fs::path& file) {
   return {file.extension().string(), cv::FileStorage::WRITE | cv::FileStorage::MEMORY};
 }
@@ -133,23 +136,23 @@ cv::FileStorage open_to_write(const fs::path& file) {
 Calibration read_opencv(const fs::path& intrinsics, const fs::path& extrinsics, const OpenCvHints& hints) {
   const Storage in(intrinsics), ex(extrinsics);
   const Size image = image_size(in, hints, intrinsics);
-  const bool fisheye = hints.fisheye || (in.has("fisheye") && in.whole_number("fisheye", 0, 1) != 0);
+  const bool fisheye = hints.fisheye || (in.has("fisheye") && in.integer("fisheye", 0, 1) != 0);
   const CameraModel left = read_camera(in, "M1", "D1", image, fisheye);
   const CameraModel right = read_camera(in, "M2", "D2", image, fisheye);
-  refuse_absurd(left, "left", intrinsics);
-  refuse_absurd(right, "right", intrinsics);
+  require_plausible(left, "left", intrinsics);
+  require_plausible(right, "right", intrinsics);
   Calibration c;
   if (!ex.has("R1")) {
     const StereoPose pose{read_rotation(ex, "R"), read_translation(ex, hints.unit_m)};
     try {
-      return sound_or_refused(rectified_pair(left, right, pose), extrinsics);
-    } catch (const std::invalid_argument& refused) {
-      throw FileError(extrinsics.string() + ": " + refused.what());
+      return validated(rectified_pair(left, right, pose), extrinsics);
+    } catch (const std::invalid_argument& error) {
+      throw FileError(extrinsics.string() + ": " + error.what());
     }
   }
   const std::vector<double> p1 = ex.numbers("P1", {12}), p2 = ex.numbers("P2", {12});
   if (p2[7] != 0) {
-    ex.fail("P2", "the cameras stand above each other; mount them side by side and calibrate again");
+    ex.fail("P2", "the cameras are mounted above each other; mount them side by side and calibrate again");
   }
   c.image = image;
   c.left = {left, read_rotation(ex, "R1"), {p1[0], p1[5], p1[2], p1[6]}};
@@ -157,23 +160,23 @@ Calibration read_opencv(const fs::path& intrinsics, const fs::path& extrinsics, 
   c.baseline_m = -p2[3] / p2[0] * hints.unit_m;
   if (p2[0] > 0 && c.baseline_m < 0) {
     throw FileError(extrinsics.string() +
-                    ": left and right are swapped: camera 1 stands to the right of camera 2; calibrate with "
-                    "them exchanged");
+                    ": left and right are swapped: camera 1 is to the right of camera 2; exchange them and "
+                    "calibrate again");
   }
   if (ex.has("baseline_m")) {
     c.baseline_m = ex.number("baseline_m", kMinBaseline_m, kMaxBaseline_m);
-    c.quality = {ex.whole_number("pairs_used", 0, kMaxPairs), ex.number("rms_px", 0, kMaxError_px),
+    c.quality = {ex.integer("pairs_used", 0, kMaxPairs), ex.number("rms_px", 0, kMaxError_px),
                  ex.number("epipolar_error_px", 0, kMaxError_px)};
   }
-  return sound_or_refused(c, extrinsics);
+  return validated(c, extrinsics);
 }
 
 void write_opencv(const fs::path& intrinsics, const fs::path& extrinsics, const Calibration& c) {
   for (const fs::path& file : {intrinsics, extrinsics}) {
     require_writable(file);
-    const std::string ending = file.extension().string();
-    if (ending != ".yml" && ending != ".yaml" && ending != ".xml" && ending != ".json") {
-      throw FileError(file.string() + ": OpenCV's files end with .yml, .yaml, .xml or .json; name it so");
+    const std::string extension = file.extension().string();
+    if (extension != ".yml" && extension != ".yaml" && extension != ".xml" && extension != ".json") {
+      throw FileError(file.string() + ": unknown extension; use .yml, .yaml, .xml or .json");
     }
   }
   cv::FileStorage in = open_to_write(intrinsics);
@@ -199,4 +202,4 @@ void write_opencv(const fs::path& intrinsics, const fs::path& extrinsics, const 
   write_text_file(extrinsics, ex.releaseAndGetString());
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <sstream>
 #include <vector>
 
 #include "calib/interop/interop.h"
-#include "daemon/base/file.h"
-#include "daemon/base/text.h"
+#include "calib/interop/interop_checks.h"
+#include "daemon/base/text_file.h"
 #include "daemon/config/yaml_section.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
@@ -14,14 +15,14 @@ namespace fs = std::filesystem;
 
 struct RosCamera {
   CameraCalibration camera;
-  double right_shift = 0;  // the projection's fourth number: −fx·baseline for a right camera
+  double right_shift = 0;  // fourth number of the projection matrix: −fx·baseline of a right camera
 };
 
 RosCamera read_camera(YamlSection& root, const std::string& name, const fs::path& file) {
   RosCamera result;
   CameraModel& m = result.camera.camera;
-  m.image = {root.required_integer("image_width", 1, kMaxImageFileSide),
-             root.required_integer("image_height", 1, kMaxImageFileSide)};
+  m.image = {root.required_integer("image_width", 1, kMaxWidth_px),
+             root.required_integer("image_height", 1, kMaxWidth_px)};
   const std::vector<double> k = root.required_section("camera_matrix").required_numbers("data", {9});
   if (!is_camera_matrix(k)) root.fail("camera_matrix", kCameraMatrix);
   m.fx = k[0], m.fy = k[4], m.cx = k[2], m.cy = k[5];
@@ -36,7 +37,7 @@ RosCamera read_camera(YamlSection& root, const std::string& name, const fs::path
   set_distortion(
       m,
       root.required_section("distortion_coefficients").required_numbers("data", distortion_counts(m.lens)));
-  refuse_absurd(m, name, file);
+  require_plausible(m, name, file);
   const std::vector<double> r = root.required_section("rectification_matrix").required_numbers("data", {9});
   std::copy(r.begin(), r.end(), result.camera.rotation.m.begin());
   result.camera.rotation = exact_rotation(result.camera.rotation);
@@ -51,7 +52,7 @@ RosCamera read_camera(YamlSection& root, const std::string& name, const fs::path
 
 std::string list_of(const std::vector<double>& values) {
   std::string text = "[";
-  for (std::size_t i = 0; i < values.size(); ++i) text += (i > 0 ? ", " : "") + exact(values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) text += (i > 0 ? ", " : "") + shortest_decimal(values[i]);
   return text + "]";
 }
 
@@ -78,8 +79,9 @@ std::string ros_text(const char* name, const CameraCalibration& c, double right_
   out << matrix("rectification_matrix", 3, 3, {c.rotation.m.begin(), c.rotation.m.end()});
   out << matrix("projection_matrix", 3, 4, {p.fx, 0, p.cx, right_shift, 0, p.fy, p.cy, 0, 0, 0, 1, 0});
   const CalibrationQuality& q = whole.quality;
-  out << "stereod:\n  baseline_m: " << exact(whole.baseline_m) << "\n  pairs_used: " << q.pairs_used
-      << "\n  rms_px: " << exact(q.rms_px) << "\n  epipolar_error_px: " << exact(q.epipolar_error_px) << "\n";
+  out << "stereod:\n  baseline_m: " << shortest_decimal(whole.baseline_m)
+      << "\n  pairs_used: " << q.pairs_used << "\n  rms_px: " << shortest_decimal(q.rms_px)
+      << "\n  epipolar_error_px: " << shortest_decimal(q.epipolar_error_px) << "\n";
   return out.str();
 }
 
@@ -90,21 +92,23 @@ Calibration read_ros(const fs::path& left, const fs::path& right) {
   const RosCamera l = read_camera(left_root, "left", left), r = read_camera(right_root, "right", right);
   if (l.camera.camera.image != r.camera.camera.image) {
     throw FileError(left.string() + " and " + right.string() +
-                    ": their images differ in size; a stereo pair's are the same");
+                    ": image sizes differ; both cameras of a pair need the same size");
   }
   if (l.right_shift < 0 && r.right_shift == 0) {
-    throw FileError(left.string() + ": this is the right camera's file and " + right.string() +
-                    " the left one's; exchange them");
+    throw FileError(left.string() + ": belongs to the right camera and " + right.string() +
+                    " to the left one; exchange them");
   }
   if (l.right_shift != 0) {
-    left_root.fail("projection_matrix", "found " + exact(l.right_shift) +
-                                            " as the fourth number, which is 0 for a left camera; these two "
-                                            "files are no stereo pair");
+    left_root.fail("projection_matrix",
+                   "found " + shortest_decimal(l.right_shift) +
+                       " as the fourth number, allowed is 0 for a left camera; these two "
+                       "files are not a stereo pair");
   }
   if (!(r.right_shift < 0)) {
-    right_root.fail("projection_matrix", "found " + exact(r.right_shift) +
-                                             " as the fourth number, which must be −fx·baseline of a right "
-                                             "camera, below 0; these two files are no stereo pair");
+    right_root.fail("projection_matrix",
+                    "found " + shortest_decimal(r.right_shift) +
+                        " as the fourth number, allowed is −fx·baseline (< 0) for a right "
+                        "camera; these two files are not a stereo pair");
   }
   Calibration c;
   c.image = l.camera.camera.image;
@@ -117,7 +121,7 @@ Calibration read_ros(const fs::path& left, const fs::path& right) {
     c.quality.rms_px = extra.required_number("rms_px", 0, 1e6);
     c.quality.epipolar_error_px = extra.required_number("epipolar_error_px", 0, 1e6);
   }
-  return sound_or_refused(c, right);
+  return validated(c, right);
 }
 
 void write_ros(const fs::path& left, const fs::path& right, const Calibration& c) {
@@ -127,4 +131,4 @@ void write_ros(const fs::path& left, const fs::path& right, const Calibration& c
   write_text_file(right, ros_text("right", c.right, right_shift(c), c));
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

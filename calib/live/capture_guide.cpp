@@ -1,33 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/live/capture_guide.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
-// A board that moves less than this from frame to frame, for so many frames, is held still.
-constexpr double kStill = 0.0016;  // of the image's width: a pixel at 640
+// A board is still if its corners move less than this from frame to frame, for kStillFrames frames.
+constexpr double kMaxStillMotion = 0.0016;  // share of the image width: 1 px at 640
 constexpr int kStillFrames = 2;
-constexpr double kNew = 0.12;
-constexpr double kLean = 0.08;
-constexpr double kNear = 0.45, kFar = 0.38;
-constexpr double kEnoughCoverage = 0.7;
+constexpr double kMinNewDifference = 0.12;  // difference() from every view taken
+constexpr double kMinLean = 0.08;
+constexpr double kNearSize = 0.45, kFarSize = 0.38;
+constexpr double kSufficientCoverage = 0.7;
 
 double distance(Point2 a, Point2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-double most_moved(const Corners& before, const Corners& now) {
-  double most = 0;
-  for (std::size_t i = 0; i < now.size(); ++i) most = std::max(most, distance(before[i], now[i]));
-  return most;
+double max_motion(const Corners& before, const Corners& now) {
+  double motion = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) motion = std::max(motion, distance(before[i], now[i]));
+  return motion;
 }
 
 struct Quad {
   Point2 upper_left, upper_right, lower_left, lower_right;
 };
 
-// The board's outer corners by where they are in the image, whichever way the board is turned.
+// Returns the board's outermost corners by their position in the image, independent of the board's turn.
 Quad outline(const Board& board, const Corners& corners) {
   const auto columns = static_cast<std::size_t>(board.columns);
   std::vector<Point2> outer = {corners.front(), corners[columns - 1], corners[corners.size() - columns],
@@ -38,10 +39,16 @@ Quad outline(const Board& board, const Corners& corners) {
   return {outer[0], outer[1], outer[2], outer[3]};
 }
 
+std::string missing_board_words(bool left_seen, bool right_seen) {
+  if (!left_seen && !right_seen) return "show the whole board to both cameras";
+  const std::string unseen = left_seen ? "right" : "left";
+  return "the " + unseen + " camera does not see the whole board; move it to the " + unseen;
+}
+
 }  // namespace
 
-View view_of(const Board& board, const Corners& corners, Size image) {
-  View view;
+BoardView board_view(const Board& board, const Corners& corners, Size image) {
+  BoardView view;
   for (const Point2& p : corners) view.x += p.x, view.y += p.y;
   const auto count = static_cast<double>(corners.size());
   view.x = (view.x / count + 0.5) / image.width;
@@ -56,7 +63,7 @@ View view_of(const Board& board, const Corners& corners, Size image) {
   return view;
 }
 
-double difference(const View& a, const View& b) {
+double difference(const BoardView& a, const BoardView& b) {
   return std::abs(a.x - b.x) + std::abs(a.y - b.y) + std::abs(a.size - b.size) +
          std::abs(a.lean_x - b.lean_x) + std::abs(a.lean_y - b.lean_y);
 }
@@ -72,14 +79,10 @@ CaptureGuide::Instruction CaptureGuide::observe(const Corners& left, const Corne
     still_frames_ = 0;
     last_left_.clear();
     last_right_.clear();
-    instruction.words = !instruction.left_seen && !instruction.right_seen
-                            ? "show the whole board to both cameras"
-                            : std::string("the ") + (instruction.left_seen ? "right" : "left") +
-                                  " camera does not see the whole board; move it to the " +
-                                  (instruction.left_seen ? "right" : "left");
+    instruction.words = missing_board_words(instruction.left_seen, instruction.right_seen);
     return instruction;
   }
-  const View view = view_of(board_, left, image_);
+  const BoardView view = board_view(board_, left, image_);
   const bool still = is_still(left, right);
   if (!is_new(view)) {
     instruction.words = next_goal(view);
@@ -97,19 +100,19 @@ CaptureGuide::Instruction CaptureGuide::observe(const Corners& left, const Corne
 bool CaptureGuide::is_still(const Corners& left, const Corners& right) {
   const bool comparable = !last_left_.empty();
   const double moved =
-      comparable ? std::max(most_moved(last_left_, left), most_moved(last_right_, right)) : image_.width;
-  still_frames_ = moved < kStill * image_.width ? still_frames_ + 1 : 0;
+      comparable ? std::max(max_motion(last_left_, left), max_motion(last_right_, right)) : image_.width;
+  still_frames_ = moved < kMaxStillMotion * image_.width ? still_frames_ + 1 : 0;
   last_left_ = left;
   last_right_ = right;
   return still_frames_ >= kStillFrames;
 }
 
-bool CaptureGuide::is_new(const View& view) const {
+bool CaptureGuide::is_new(const BoardView& view) const {
   return std::all_of(views_.begin(), views_.end(),
-                     [&](const View& taken) { return difference(taken, view) > kNew; });
+                     [&](const BoardView& taken) { return difference(taken, view) > kMinNewDifference; });
 }
 
-void CaptureGuide::keep(const View& view, const Corners& left, const Corners& right) {
+void CaptureGuide::keep(const BoardView& view, const Corners& left, const Corners& right) {
   views_.push_back(view);
   left_.add(left);
   right_.add(right);
@@ -117,31 +120,33 @@ void CaptureGuide::keep(const View& view, const Corners& left, const Corners& ri
 }
 
 bool CaptureGuide::complete() const {
-  // Twice as many as wanted are enough, wherever they are.
+  // Twice the wanted number is enough with any coverage.
   if (taken() >= 2 * wanted_) return true;
-  return taken() >= wanted_ && std::min(left_.share(), right_.share()) >= kEnoughCoverage;
+  return taken() >= wanted_ && std::min(left_.share(), right_.share()) >= kSufficientCoverage;
 }
 
-std::string CaptureGuide::next_goal(const View& now) const {
+std::string CaptureGuide::next_goal(const BoardView& now) const {
   const auto missing = [&](auto&& has) { return std::none_of(views_.begin(), views_.end(), has); };
-  if (missing([](const View& v) { return v.size > kNear; }) && now.size <= kNear) return "come closer";
-  if (missing([](const View& v) { return v.lean_x > kLean; })) {
+  if (missing([](const BoardView& v) { return v.size > kNearSize; }) && now.size <= kNearSize)
+    return "come closer";
+  if (missing([](const BoardView& v) { return v.lean_x > kMinLean; })) {
     return "tilt the board: its left side towards the cameras";
   }
-  if (missing([](const View& v) { return v.lean_x < -kLean; })) {
+  if (missing([](const BoardView& v) { return v.lean_x < -kMinLean; })) {
     return "tilt the board: its right side towards the cameras";
   }
-  if (missing([](const View& v) { return v.lean_y > kLean; })) {
+  if (missing([](const BoardView& v) { return v.lean_y > kMinLean; })) {
     return "tilt the board: its upper side towards the cameras";
   }
-  if (missing([](const View& v) { return v.lean_y < -kLean; })) {
+  if (missing([](const BoardView& v) { return v.lean_y < -kMinLean; })) {
     return "tilt the board: its lower side towards the cameras";
   }
-  if (missing([](const View& v) { return v.size < kFar; }) && now.size >= kFar) return "go farther away";
+  if (missing([](const BoardView& v) { return v.size < kFarSize; }) && now.size >= kFarSize)
+    return "go farther away";
   const Coverage& emptier = left_.share() <= right_.share() ? left_ : right_;
   const std::vector<std::string> empty = emptier.empty_parts();
   if (!empty.empty()) return "move the board to " + empty.front();
-  return "move the board a little, turn or tilt it";
+  return "move, turn or tilt the board a little";
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,41 +1,40 @@
-// What a person before the cameras should do next.
+// SPDX-License-Identifier: BSD-3-Clause
+// Guides a person who moves the board in front of the cameras.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "calib/board/board.h"
 #include "calib/quality/coverage.h"
-#include "calib/solve/pair_geometry.h"
 
-namespace stereod {
+namespace stereod::calib {
 
-/// How a board looks in an image, in numbers that do not depend on the image's size.
-struct View {
-  double x = 0, y = 0;  ///< its middle, 0 … 1
-  double size = 0;      ///< root of its share of the image's area, 0 … 1
-  double lean_x = 0;    ///< how much taller its left side looks than its right one; 0.1 is a tenth
-  double lean_y = 0;    ///< how much wider its upper side looks than its lower one
+/// How a board appears in an image, independent of the image size.
+struct BoardView {
+  double x = 0, y = 0;  ///< center, 0…1
+  double size = 0;      ///< square root of the board's share of the image area, 0…1
+  double lean_x = 0;    ///< ln(height of the left side / height of the right side); 0.1 is about 10 %
+  double lean_y = 0;    ///< ln(width of the upper side / width of the lower side)
 };
-View view_of(const Board& board, const Corners& corners, Size image);
+BoardView board_view(const Board& board, const Corners& corners, Size image);
 
-/// How different two views are; 0.1 is a step aside of a tenth of the image.
-double difference(const View& a, const View& b);
+/// Returns how different two views are: the sum of the differences of all five values.
+double difference(const BoardView& a, const BoardView& b);
 
-/// Decides which pairs are taken and what to say. Frames come in by observe().
+/// Decides which pairs to take and what the person should do next.
 class CaptureGuide {
  public:
-  /// `wanted`: how many pairs make it complete, provided that the goals are met.
+  /// @p wanted: number of pairs that completes the capture if the coverage is sufficient.
   CaptureGuide(const Board& board, Size image, int wanted);
 
   struct Instruction {
-    bool take = false;      ///< this pair is still and new: keep it (it counts as taken)
-    bool complete = false;  ///< enough has been taken
+    bool take = false;      ///< keep this pair: the board is still and the view is new; it counts as taken
+    bool complete = false;  ///< enough pairs were taken
     bool left_seen = false, right_seen = false;
-    std::string words;  ///< one short sentence in the imperative
+    std::string words;  ///< what to do next, one short imperative sentence
   };
-  /// The board in one pair of frames, an empty list where it was not found.
+  /// Observes one pair of frames. An empty list: the board was not found in that image.
   Instruction observe(const Corners& left, const Corners& right);
 
   int taken() const { return static_cast<int>(views_.size()); }
@@ -45,18 +44,18 @@ class CaptureGuide {
 
  private:
   bool is_still(const Corners& left, const Corners& right);
-  bool is_new(const View& view) const;
-  void keep(const View& view, const Corners& left, const Corners& right);
+  bool is_new(const BoardView& view) const;
+  void keep(const BoardView& view, const Corners& left, const Corners& right);
   bool complete() const;
-  std::string next_goal(const View& now) const;
+  std::string next_goal(const BoardView& now) const;
 
   Board board_;
   Size image_;
   int wanted_;
   Coverage left_, right_;
-  std::vector<View> views_;
+  std::vector<BoardView> views_;
   Corners last_left_, last_right_;
   int still_frames_ = 0;
 };
 
-}  // namespace stereod
+}  // namespace stereod::calib

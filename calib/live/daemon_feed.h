@@ -1,31 +1,32 @@
-// The running daemon's raw images.
+// SPDX-License-Identifier: BSD-3-Clause
+// Image pairs from a running daemon.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 
 #include "calib/live/frame_feed.h"
+#include "calib/live/raw_image_pairing.h"
 #include "daemon/lcm/receiver.h"
 
-namespace stereod {
+namespace stereod::calib {
 
-/// Takes PREFIX_LEFT_RAW and PREFIX_RIGHT_RAW, which the daemon publishes with `lcm.raw_images: true`, and
-/// pairs them by time. Messages that are no gray image are passed over.
+/// Receives PREFIX_LEFT_RAW and PREFIX_RIGHT_RAW, which a daemon with `lcm.raw_images: true` publishes.
 class DaemonFeed final : public FrameFeed {
  public:
-  /// Throws BusError where LCM cannot be received.
+  /// @throws BusError if LCM cannot be received from @p lcm_url.
   DaemonFeed(const std::string& lcm_url, const std::string& prefix);
 
+  /// Reads all messages that wait, and returns the newest pair.
   std::optional<ImagePair> next(std::chrono::milliseconds timeout) override;
   bool finished() const override { return false; }
 
  private:
-  void take(Side side, std::span<const std::byte> message);
+  void read_waiting_messages();
 
   LcmReceiver receiver_;
-  Pairing<GrayImage> pairing_;
+  RawImagePairing pairing_;
   std::uint64_t taken_ = 0;
 };
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,55 +1,44 @@
-// Pairs of live images.
+// SPDX-License-Identifier: BSD-3-Clause
+// Live image pairs.
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
+#include <cstdint>
 #include <optional>
-#include <thread>
 
 #include "calib/base/pair_input.h"
-#include "core/sync/pairing.h"
-#include "daemon/capture/stereo_source.h"
+#include "daemon/capture/stereo_capture.h"
 #include "daemon/config/config.h"
 
-namespace stereod {
+namespace stereod::calib {
 
-/// Where a live session's images come from.
+/// The source of a live session's images.
 class FrameFeed {
  public:
   virtual ~FrameFeed() = default;
-  /// The next pair; nothing within the time-out, or ever again if finished().
+
+  /// Returns the newest pair; waits for one up to @p timeout [ms]. Returns nothing after the timeout, or if
+  /// finished().
   virtual std::optional<ImagePair> next(std::chrono::milliseconds timeout) = 0;
-  /// A recording has come to its end.
+
+  /// Returns whether a recording has ended: next() will never return a pair again.
   virtual bool finished() const = 0;
 };
 
-/// The configuration's cameras, opened as the daemon opens them, paired as it pairs. Frames that come while a
-/// pair is being looked at are dropped, newest wins; only sources with `fps: 0`, which wait for their
-/// consumer, lose none.
+/// Captures from the cameras of a configuration, exactly as the daemon does. Pairs that arrive between two calls of
+/// next() replace each other; a source with `fps: 0` waits for its consumer and loses none.
 class CameraFeed final : public FrameFeed {
  public:
-  /// Throws what open_stereo_source() throws.
+  /// Starts capturing. @throws FileError as open_stereo_source() does.
   explicit CameraFeed(const Config& config);
-  ~CameraFeed() override;
-  CameraFeed(const CameraFeed&) = delete;
-  CameraFeed& operator=(const CameraFeed&) = delete;
 
   std::optional<ImagePair> next(std::chrono::milliseconds timeout) override;
-  bool finished() const override;
+  bool finished() const override { return finished_; }
 
  private:
-  void read(FrameSource& source, Side side);
-
-  StereoSource rig_;
-  bool waits_;  // for a pair to be taken before the next frame
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  Pairing<GrayImage> pairing_;
-  bool stopping_ = false;
-  int running_ = 2;
+  StereoCapture capture_;
   std::uint64_t taken_ = 0;
-  std::jthread left_thread_, right_thread_;
+  bool finished_ = false;
 };
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -12,7 +12,7 @@
 #include "calib/base/opencv_image.h"
 #include "calib/live/live_page_text.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 struct LivePage::Server {
   httplib::Server http;
@@ -91,4 +91,4 @@ void LivePage::show(const LiveSnapshot& snapshot, GrayView left, GrayView right)
   server_->right = std::move(right_jpeg);
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -7,7 +7,7 @@
 #include "calib/live/live_state.h"
 #include "core/base/image.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 /// Serves on 127.0.0.1 only, and only to who asks for this machine by that name, so that no other page in the
 /// browser can look through the cameras. Over ssh: ssh -L 8090:127.0.0.1:8090 robot.
@@ -27,4 +27,4 @@ class LivePage {
   std::unique_ptr<Server> server_;
 };
 
-}  // namespace stereod
+}  // namespace stereod::calib

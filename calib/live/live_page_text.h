@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace stereod {
+namespace stereod::calib {
 
 inline constexpr std::string_view kLivePage = R"page(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
@@ -56,4 +56,4 @@ tick();
 </script></body></html>
 )page";
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/live/live_state.h"
 
 #include <algorithm>
 
-#include "calib/report/html.h"
+#include "calib/base/text.h"
 #include "daemon/base/progress.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
@@ -55,7 +56,7 @@ std::string status_line(const LiveSnapshot& m) {
          fixed(100 * std::min(m.left_coverage, m.right_coverage), 0) + " % | " + m.words;
 }
 
-// The words are ours and hold no character that JSON would want escaped.
+// Needs no escaping: CaptureGuide writes the words.
 std::string json_of(const LiveSnapshot& m) {
   return "{\"width\":" + std::to_string(m.image.width) + ",\"height\":" + std::to_string(m.image.height) +
          ",\"words\":\"" + m.words + "\",\"taken\":" + std::to_string(m.taken) +
@@ -66,4 +67,4 @@ std::string json_of(const LiveSnapshot& m) {
          ",\"coverage\":" + fixed(m.right_coverage, 3) + "}}";
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/quality/coverage.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace stereod {
+namespace stereod::calib {
 
 void Coverage::add(const Corners& corners) {
   for (const Point2& p : corners) {
@@ -26,7 +27,7 @@ std::vector<std::string> Coverage::empty_parts() const {
   };
   std::vector<Part> parts;
   for (int number = 0; number < 9; ++number) {
-    // The corners of the image are two columns wide, the middle is four.
+    // Columns are split 2 + 4 + 2, rows 2 + 2 + 2.
     const int first_columns[] = {0, 2, 6, 8}, first_rows[] = {0, 2, 4, 6};
     int cells = 0, covered = 0;
     for (int row = first_rows[number / 3]; row < first_rows[number / 3 + 1]; ++row) {
@@ -39,16 +40,16 @@ std::vector<std::string> Coverage::empty_parts() const {
   }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const Part& a, const Part& b) { return a.share < b.share; });
-  std::vector<std::string> words;
-  for (const Part& part : parts) words.push_back(part_in_words(part.number));
-  return words;
+  std::vector<std::string> names;
+  for (const Part& part : parts) names.push_back(image_part_name(part.number));
+  return names;
 }
 
-std::string part_in_words(int part) {
-  static const char* const kWords[] = {"the upper left", "the top",    "the upper right",
+std::string image_part_name(int part) {
+  static const char* const kNames[] = {"the upper left", "the top",    "the upper right",
                                        "the left side",  "the middle", "the right side",
                                        "the lower left", "the bottom", "the lower right"};
-  return kWords[part];
+  return kNames[part];
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,4 +1,5 @@
-// Where in the image the board has been.
+// SPDX-License-Identifier: BSD-3-Clause
+// Records which parts of the image have seen the board.
 #pragma once
 
 #include <array>
@@ -8,21 +9,22 @@
 #include "calib/board/board.h"
 #include "core/base/image.h"
 
-namespace stereod {
+namespace stereod::calib {
 
-/// The image as a grid of 8×6 cells, and how many corners lay in each.
+/// Counts corners in a grid of 8×6 cells over the image.
 class Coverage {
  public:
   static constexpr int kColumns = 8, kRows = 6;
 
   explicit Coverage(Size image) : image_(image) {}
+  /// Counts @p corners; ignores those outside the image.
   void add(const Corners& corners);
 
   int count(int column, int row) const { return cells_[index(column, row)]; }
-  /// The share of cells with at least one corner, 0 … 1.
+  /// Returns the share of cells with at least one corner, 0…1.
   double share() const;
-  /// The parts of the image, of nine, with the least of their cells covered, in words ("the upper left"),
-  /// worst first; those at least half covered are not among them.
+  /// Returns the names (image_part_name()) of those of the nine image parts that have less than half of their cells
+  /// covered, emptiest first.
   std::vector<std::string> empty_parts() const;
 
  private:
@@ -32,7 +34,7 @@ class Coverage {
   std::array<int, static_cast<std::size_t>(kColumns* kRows)> cells_{};
 };
 
-/// "the upper left", "the middle", …: part 0 … 8 of an image cut into three by three, row by row.
-std::string part_in_words(int part);
+/// Returns the name of part 0…8 of an image divided into 3×3 parts, row by row: "the upper left", "the middle", …
+std::string image_part_name(int part);
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,24 +1,25 @@
-// What a calibration's errors mean in meters.
+// SPDX-License-Identifier: BSD-3-Clause
+// Converts a calibration's errors into errors of depth.
 #pragma once
 
 #include <array>
 
 #include "core/geometry/calibration.h"
 
-namespace stereod {
+namespace stereod::calib {
 
-/// Where the report says how far off depth is.
+/// Depths at which the expected error is reported.
 inline constexpr std::array kReportedDepths_m = {0.5, 1.0, 2.0, 5.0, 10.0};
 
-/// What makes depth uncertain.
+/// Errors that make depth uncertain.
 struct DepthErrorSources {
-  double disparity_px = 0;  ///< one standard deviation
-  double scale = 0;         ///< measured lengths / true lengths − 1
+  double disparity_px = 0;  ///< standard deviation of the disparity
+  double scale = 0;         ///< measured length / true length − 1
 };
 
-/// How far off, about (one standard deviation), the depth of a point `depth_m` > 0 away is: Z²/(f·B) for each
-/// pixel of disparity, and the error of scale.
+/// Returns the standard deviation [m] of the depth of a point at @p depth_m [m, > 0]: Z²/(f·B) per pixel of
+/// disparity error, combined with the error of scale.
 double expected_depth_error_m(const Calibration& calibration, const DepthErrorSources& sources,
                               double depth_m);
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,45 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/quality/epipolar_matches.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
+#include <optional>
 
 #include "calib/base/opencv_image.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
-constexpr int kHalf = 8;  // of a patch
+constexpr int kHalf = 8;  // half the side of a patch
 constexpr int kMaxPoints = 500;
 
-// How far from its place a patch is searched for, to the left and to the right.
-struct Reach {
+// Columns searched on each side of the patch.
+struct SearchRange {
   int left, right;
 };
 
-// Where in the other image a patch looks most alike, to a pixel; nothing if that is not sure.
-std::optional<cv::Point2f> find_again(const cv::Mat& left, const cv::Mat& right, cv::Point2f at,
-                                      Reach reach) {
+// Returns the best match in `to` of the patch around `at` in `from`, to a pixel; nothing if it is ambiguous.
+std::optional<cv::Point2f> find_patch(const cv::Mat& from, const cv::Mat& to, cv::Point2f at,
+                                      SearchRange range) {
   const int x = cvRound(at.x), y = cvRound(at.y);
-  const int up_down = std::max(6, left.rows / 40);
-  const cv::Rect image(0, 0, left.cols, left.rows);
+  const int up_down = std::max(6, from.rows / 40);
+  const cv::Rect image(0, 0, from.cols, from.rows);
   const cv::Rect patch(x - kHalf, y - kHalf, 2 * kHalf + 1, 2 * kHalf + 1);
-  const cv::Rect area = cv::Rect(patch.x - reach.left, patch.y - up_down,
-                                 patch.width + reach.left + reach.right, patch.height + 2 * up_down) &
+  const cv::Rect area = cv::Rect(patch.x - range.left, patch.y - up_down,
+                                 patch.width + range.left + range.right, patch.height + 2 * up_down) &
                         image;
   if ((patch & image) != patch || area.width <= patch.width + 8 || area.height <= patch.height) {
     return std::nullopt;
   }
-  cv::Mat likeness;
-  cv::matchTemplate(right(area), left(patch), likeness, cv::TM_CCOEFF_NORMED);
+  cv::Mat correlation;
+  cv::matchTemplate(to(area), from(patch), correlation, cv::TM_CCOEFF_NORMED);
   double best = 0, second = 0;
   cv::Point place;
-  cv::minMaxLoc(likeness, nullptr, &best, nullptr, &place);
-  // The runner-up must be clearly worse, or the pattern repeats itself.
-  cv::rectangle(likeness, place - cv::Point(4, 4), place + cv::Point(4, 4), cv::Scalar(-1), cv::FILLED);
-  cv::minMaxLoc(likeness, nullptr, &second);
+  cv::minMaxLoc(correlation, nullptr, &best, nullptr, &place);
+  // Outside the neighborhood of the best match the correlation must be clearly lower; a repeated pattern is not.
+  cv::rectangle(correlation, place - cv::Point(4, 4), place + cv::Point(4, 4), cv::Scalar(-1), cv::FILLED);
+  cv::minMaxLoc(correlation, nullptr, &second);
   if (best < 0.9 || second > best - 0.04) return std::nullopt;
   return cv::Point2f(static_cast<float>(area.x + place.x + kHalf),
                      static_cast<float>(area.y + place.y + kHalf));
@@ -47,7 +49,7 @@ std::optional<cv::Point2f> find_again(const cv::Mat& left, const cv::Mat& right,
 
 }  // namespace
 
-std::vector<EpipolarMatch> match_rows(GrayView left_view, GrayView right_view) {
+std::vector<EpipolarMatch> match_epipolar_points(GrayView left_view, GrayView right_view) {
   const cv::Mat left = as_opencv(left_view), right = as_opencv(right_view);
   std::vector<cv::Point2f> points;
   cv::goodFeaturesToTrack(left, points, kMaxPoints, 0.01, 7);
@@ -55,17 +57,17 @@ std::vector<EpipolarMatch> match_rows(GrayView left_view, GrayView right_view) {
   std::vector<cv::Point2f> from, to;
   for (const cv::Point2f& p : points) {
     const cv::Point2f start(std::round(p.x), std::round(p.y));
-    const auto again = find_again(left, right, start, {far, near});
-    if (!again) continue;
-    // What is not found back from there was not the same thing.
-    const auto back = find_again(right, left, *again, {near, far});
+    const auto match = find_patch(left, right, start, {far, near});
+    if (!match) continue;
+    // The search in the opposite direction must return to the start.
+    const auto back = find_patch(right, left, *match, {near, far});
     if (!back || cv::norm(*back - start) > 1.5) continue;
     from.push_back(start);
-    to.push_back(*again);
+    to.push_back(*match);
   }
   std::vector<EpipolarMatch> matches;
   if (from.empty()) return matches;
-  // To fractions of a pixel, by Lucas and Kanade's method from there.
+  // Lucas-Kanade method, for a fraction of a pixel.
   std::vector<cv::Point2f> exact = to;
   std::vector<unsigned char> found;
   std::vector<float> difference;
@@ -80,4 +82,4 @@ std::vector<EpipolarMatch> match_rows(GrayView left_view, GrayView right_view) {
   return matches;
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

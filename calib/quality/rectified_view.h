@@ -1,13 +1,14 @@
-// Images as a calibration rectifies them, smoothly: for looking at and measuring in, not for matching fast.
+// SPDX-License-Identifier: BSD-3-Clause
+// Rectifies whole images for display and measurement.
 #pragma once
 
 #include "core/base/image.h"
 #include "core/geometry/calibration.h"
 
-namespace stereod {
+namespace stereod::calib {
 
-/// Interpolates between the four nearest pixels; black where there is no source. The image has the size of
-/// the calibration's images.
-GrayImage rectified_view(const CameraCalibration& camera, GrayView picture);
+/// Returns @p image rectified with bilinear interpolation and unrounded coordinates. Black where the source lies
+/// outside the image. Slower than the daemon's RectifyMap.
+GrayImage rectified_view(const CameraCalibration& camera, GrayView image);
 
-}  // namespace stereod
+}  // namespace stereod::calib

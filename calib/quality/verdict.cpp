@@ -1,42 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/quality/verdict.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "daemon/base/text.h"
+#include "calib/base/text.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
-constexpr double kGoodRow_px = 0.25, kUsableRow_px = 0.5;
+constexpr double kGoodEpipolar_px = 0.25, kUsableEpipolar_px = 0.5;
 constexpr double kGoodRms_px = 0.5, kUsableRms_px = 1.0;
 constexpr double kGoodCoverage = 0.6, kUsableCoverage = 0.3;
-constexpr double kUsableBreakdown = 0.05;
+constexpr double kUsableFoldover = 0.05;
 constexpr int kGoodPairs = 8;
 
-std::string percent(double share) { return fixed(100 * share, 0) + " %"; }
+std::string percent(double share, int digits = 0) { return fixed(100 * share, digits) + " %"; }
 
 Grade grade_of(double value, double good, double usable) {
   if (value <= good) return Grade::kGood;
-  return value <= usable ? Grade::kUsable : Grade::kDoAgain;  // a NaN is no good either
+  return value <= usable ? Grade::kUsable : Grade::kDoAgain;  // also for NaN
 }
 
-std::string list_of(const std::vector<std::string>& words) {
+// Returns the first three names: "a, b and c".
+std::string enumeration(const std::vector<std::string>& names) {
+  const std::size_t count = std::min<std::size_t>(names.size(), 3);
   std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(words.size(), 3); ++i) {
-    if (i > 0) text += i + 1 == std::min<std::size_t>(words.size(), 3) ? " and " : ", ";
-    text += words[i];
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0) text += i + 1 == count ? " and " : ", ";
+    text += names[i];
   }
   return text;
 }
 
-// Collects the worst grade and the sentence for it.
+// Collects the worst grade and the reasons for it.
 class VerdictBuilder {
  public:
-  void hear(Grade grade, const std::string& sentence) {
+  void add(Grade grade, const std::string& reason) {
     if (grade == Grade::kGood) return;
     verdict_.grade = std::max(verdict_.grade, grade);
-    verdict_.reasons.push_back(sentence);
+    verdict_.reasons.push_back(reason);
   }
   Verdict verdict() && { return std::move(verdict_); }
 
@@ -44,56 +48,74 @@ class VerdictBuilder {
   Verdict verdict_;
 };
 
+void add_errors(VerdictBuilder& verdict, const QualityStats& stats) {
+  verdict.add(grade_of_epipolar_error(stats.epipolar_error_px),
+              "Epipolar error " + fixed(stats.epipolar_error_px, 2) + " px on held-out pairs (good up to " +
+                  fixed(kGoodEpipolar_px, 2) + " px, usable up to " + fixed(kUsableEpipolar_px, 1) +
+                  " px): the matcher loses points.");
+  verdict.add(stats.max_epipolar_error_px <= 4 * kGoodEpipolar_px ? Grade::kGood : Grade::kUsable,
+              "Epipolar error " + fixed(stats.max_epipolar_error_px, 2) +
+                  " px on the worst held-out pair (good up to " + fixed(4 * kGoodEpipolar_px, 0) +
+                  " px): the other pairs do not cover its part of the image or its distance.");
+  verdict.add(
+      grade_of(stats.rms_px, kGoodRms_px, kUsableRms_px),
+      "Reprojection error " + fixed(stats.rms_px, 2) + " px RMS (good up to " + fixed(kGoodRms_px, 1) +
+          " px, usable up to " + fixed(kUsableRms_px, 0) +
+          " px). Check that the board is flat and stiff, that board and cameras were still, and that the "
+          "lens model is right.");
+}
+
+void add_coverage(VerdictBuilder& verdict, const QualityStats& stats) {
+  const double coverage = std::min(stats.left_coverage, stats.right_coverage);
+  verdict.add(coverage >= kGoodCoverage     ? Grade::kGood
+              : coverage >= kUsableCoverage ? Grade::kUsable
+                                            : Grade::kDoAgain,
+              "The board covers only " + percent(coverage) + " of the " +
+                  (stats.left_coverage <= stats.right_coverage ? "left" : "right") + " image" +
+                  (stats.empty_parts.empty() ? "" : ", too little of " + enumeration(stats.empty_parts)) +
+                  "; depth is unreliable there.");
+  verdict.add(
+      grade_of_foldover(stats.foldover),
+      "The distortion model folds over in " + percent(stats.foldover, 1) +
+          " of the image: it has more coefficients than the pairs determine. Show the board there too, or "
+          "choose a lens model with fewer coefficients.");
+}
+
+void add_pairs(VerdictBuilder& verdict, const QualityStats& stats) {
+  verdict.add(stats.pairs_used >= kGoodPairs ? Grade::kGood : Grade::kUsable,
+              "Only " + std::to_string(stats.pairs_used) + " pairs used; 15 or more are better.");
+  verdict.add(
+      2 * stats.outliers <= stats.pairs_used ? Grade::kGood : Grade::kDoAgain,
+      std::to_string(stats.outliers) +
+          " pairs are outliers: the board moved while they were taken, or the cameras do not take their "
+          "images at the same time.");
+}
+
 }  // namespace
 
-std::string in_words(Grade grade) {
+std::string to_string(Grade grade) {
   return grade == Grade::kGood ? "good" : grade == Grade::kUsable ? "usable" : "do again";
 }
 
 Grade grade_of_epipolar_error(double epipolar_error_px) {
-  return grade_of(epipolar_error_px, kGoodRow_px, kUsableRow_px);
+  return grade_of(epipolar_error_px, kGoodEpipolar_px, kUsableEpipolar_px);
 }
 
-Grade grade_of_foldover(double share) { return grade_of(share, 0, kUsableBreakdown); }
+Grade grade_of_foldover(double share) { return grade_of(share, 0, kUsableFoldover); }
 
-Verdict judge(const QualityStats& f) {
-  VerdictBuilder jury;
-  jury.hear(grade_of_epipolar_error(f.epipolar_error_px),
-            "Rows of the two rectified images are " + fixed(f.epipolar_error_px, 2) +
-                " px apart on pairs that were held back; up to " + fixed(kGoodRow_px, 2) +
-                " is good, above " + fixed(kUsableRow_px, 1) + " the matcher loses points.");
-  jury.hear(f.max_epipolar_error_px <= 4 * kGoodRow_px ? Grade::kGood : Grade::kUsable,
-            "One pair that was held back is " + fixed(f.max_epipolar_error_px, 2) +
-                " px off: a part of the image, or a distance, was not calibrated with.");
-  jury.hear(
-      grade_of(f.rms_px, kGoodRms_px, kUsableRms_px),
-      "Corners are " + fixed(f.rms_px, 2) + " px from where they belong; up to " + fixed(kGoodRms_px, 1) +
-          " is good. Is the board flat and stiff, were cameras and board still, is the lens model right?");
-  const double coverage = std::min(f.left_coverage, f.right_coverage);
-  jury.hear(coverage >= kGoodCoverage     ? Grade::kGood
-            : coverage >= kUsableCoverage ? Grade::kUsable
-                                          : Grade::kDoAgain,
-            "The board was seen in only " + percent(coverage) + " of the " +
-                (f.left_coverage <= f.right_coverage ? "left" : "right") + " image" +
-                (f.empty_parts.empty() ? "" : ", not in " + list_of(f.empty_parts)) +
-                "; depth there is not to be trusted.");
-  jury.hear(grade_of_foldover(f.breakdown),
-            "The lens model breaks down in " + fixed(100 * f.breakdown, 1) +
-                " % of the images: it has more coefficients than these images can hold. Show the board there "
-                "too, or choose a lens model with fewer of them.");
-  jury.hear(f.pairs_used >= kGoodPairs ? Grade::kGood : Grade::kUsable,
-            "Only " + std::to_string(f.pairs_used) + " pairs were calibrated with; 15 and more are better.");
-  jury.hear(2 * f.pairs_left_out <= f.pairs_used ? Grade::kGood : Grade::kDoAgain,
-            std::to_string(f.pairs_left_out) +
-                " pairs do not agree with the rest: did the board move, or do the cameras not take their "
-                "images at the same moment?");
-  Verdict verdict = std::move(jury).verdict();
+Verdict evaluate(const QualityStats& stats) {
+  VerdictBuilder builder;
+  add_errors(builder, stats);
+  add_coverage(builder, stats);
+  add_pairs(builder, stats);
+  Verdict verdict = std::move(builder).verdict();
   if (verdict.grade == Grade::kGood) {
-    verdict.reasons.push_back("Rows of the two rectified images are within " + fixed(f.epipolar_error_px, 2) +
-                              " px of each other on pairs that were held back, and the board was seen in " +
-                              percent(coverage) + " of the image or more.");
+    verdict.reasons.push_back("Epipolar error " + fixed(stats.epipolar_error_px, 2) +
+                              " px on held-out pairs; the board covers at least " +
+                              percent(std::min(stats.left_coverage, stats.right_coverage)) +
+                              " of each image.");
   }
   return verdict;
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

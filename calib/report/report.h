@@ -1,31 +1,18 @@
-// What a calibration is worth, as a page for a person.
+// SPDX-License-Identifier: BSD-3-Clause
+// Renders the calibration report, one HTML page.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "calib/base/pair_input.h"
-#include "calib/quality/coverage.h"
-#include "calib/quality/depth_error.h"
-#include "calib/quality/verdict.h"
-#include "calib/solve/solve.h"
+#include "calib/quality/assessment.h"
 
-namespace stereod {
+namespace stereod::calib {
 
-/// Everything that is said about a result, in the terminal and on the page.
-struct Assessment {
-  Coverage left, right;
-  DepthErrorSources depth;
-  Verdict verdict;
-};
-Assessment assess(const SolveResult& result);
-
-/// The result in a few lines of text.
-std::string summary_text(const SolveResult& result, const Assessment& assessment);
-
-/// One HTML file that needs nothing else: verdict, coverage of both images, every pair's error, a rectified
-/// pair with epipolar lines, the expected error of depth, the numbers. `images` are those of the result.
+/// Returns a self-contained HTML page: verdict, coverage of both images, the errors of every pair, a rectified pair
+/// with epipolar lines, the expected depth error and all parameters. @p images are those that were solved from.
 std::string report_page(const SolveResult& result, const Assessment& assessment,
-                        const std::vector<ImagePair>& pictures);
+                        const std::vector<ImagePair>& images);
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/report/report_charts.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "calib/report/html.h"
+#include "calib/base/text.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
@@ -16,20 +17,20 @@ std::string line(double x1, double y1, double x2, double y2, const std::string& 
 
 std::string label(double x, double y, const std::string& css_class, const std::string& text) {
   return "<text class=\"" + css_class + "\" x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\">" +
-         escaped(text) + "</text>";
+         escape_html(text) + "</text>";
 }
 
-// A chart with logarithmic axes: depth 0.5 … 10 m across, error up.
+// A chart with logarithmic axes: depth 0.5…10 m to the right, error upward.
 struct LogChart {
   static constexpr double kWidth = 640, kHeight = 300, kLeft = 70, kRight = 20, kTop = 16, kBottom = 44;
-  double least_error, most_error;
+  double min_error, max_error;  // [m]
 
   double x(double depth) const {
     return kLeft + (kWidth - kLeft - kRight) * std::log(depth / 0.5) / std::log(10 / 0.5);
   }
   double y(double error) const {
     return kHeight - kBottom -
-           (kHeight - kTop - kBottom) * std::log(error / least_error) / std::log(most_error / least_error);
+           (kHeight - kTop - kBottom) * std::log(error / min_error) / std::log(max_error / min_error);
   }
 };
 
@@ -54,7 +55,7 @@ std::string coverage_map(const SolveResult& result, const Coverage& coverage, bo
   }
   const std::string radius = fixed(w / 260, 2);
   for (const PairResult& pair : result.pairs) {
-    if (pair.fate == PairFate::kLeftOut) continue;
+    if (pair.outcome == PairOutcome::kRejected) continue;
     for (const Point2& p : left ? pair.corners.left : pair.corners.right) {
       svg += "<circle class=\"used\" cx=\"" + fixed(p.x, 1) + "\" cy=\"" + fixed(p.y, 1) + "\" r=\"" +
              radius + "\"/>";
@@ -65,11 +66,11 @@ std::string coverage_map(const SolveResult& result, const Coverage& coverage, bo
 
 std::string depth_chart(const Calibration& calibration, const DepthErrorSources& sources) {
   LogChart chart{1, 1};
-  chart.least_error = std::pow(10, std::floor(std::log10(expected_depth_error_m(calibration, sources, 0.5))));
-  chart.most_error = std::pow(10, std::ceil(std::log10(expected_depth_error_m(calibration, sources, 10))));
-  chart.most_error = std::max(chart.most_error, 10 * chart.least_error);
+  chart.min_error = std::pow(10, std::floor(std::log10(expected_depth_error_m(calibration, sources, 0.5))));
+  chart.max_error = std::pow(10, std::ceil(std::log10(expected_depth_error_m(calibration, sources, 10))));
+  chart.max_error = std::max(chart.max_error, 10 * chart.min_error);
   std::string svg = "<svg class=\"chart\" viewBox=\"0 0 640 300\">";
-  for (double error = chart.least_error; error < chart.most_error * 1.01; error *= 10) {
+  for (double error = chart.min_error; error < chart.max_error * 1.01; error *= 10) {
     svg += line(chart.kLeft, chart.y(error), chart.kWidth - chart.kRight, chart.y(error), "grid");
     svg += label(chart.kLeft - 8, chart.y(error) + 4, "left-label",
                  error < 0.0099 ? fixed(1000 * error, 0) + " mm"
@@ -92,8 +93,7 @@ std::string depth_chart(const Calibration& calibration, const DepthErrorSources&
     svg += "<circle class=\"dot\" cx=\"" + fixed(chart.x(depth), 1) + "\" cy=\"" +
            fixed(chart.y(expected_depth_error_m(calibration, sources, depth)), 1) + "\" r=\"4.5\"/>";
   }
-  svg += label((chart.kLeft + chart.kWidth - chart.kRight) / 2, chart.kHeight - 4, "middle-label",
-               "distance of what is seen");
+  svg += label((chart.kLeft + chart.kWidth - chart.kRight) / 2, chart.kHeight - 4, "middle-label", "depth");
   return svg + "</svg>";
 }
 
@@ -128,4 +128,4 @@ std::string bar(double value, double full, const std::string& css_class) {
          "%\"></span></span>";
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

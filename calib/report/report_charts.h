@@ -1,4 +1,5 @@
-// The report's drawings, as SVG.
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws the report's charts as SVG.
 #pragma once
 
 #include <string>
@@ -7,20 +8,19 @@
 #include "calib/quality/depth_error.h"
 #include "calib/solve/solve.h"
 
-namespace stereod {
+namespace stereod::calib {
 
-/// The image with every corner seen in it and the cells that no corner reached.
+/// Draws the corners of all used pairs in the left or right image; cells without a corner are hatched.
 std::string coverage_map(const SolveResult& result, const Coverage& coverage, bool left);
 
-/// Expected depth error against depth, 0.5 to 10 m, both axes logarithmic.
+/// Draws the expected depth error over depth, 0.5…10 m, with logarithmic axes.
 std::string depth_chart(const Calibration& calibration, const DepthErrorSources& sources);
 
-/// Both images of a pair, rectified, side by side, with lines along the rows and the corners marked. The
-/// image files are given as data URLs.
+/// Draws a rectified pair side by side with epipolar lines and the corners of the board. The images are data URLs.
 std::string epipolar_view(const Calibration& calibration, const BoardPair& corners,
                           const std::string& left_url, const std::string& right_url);
 
-/// A bar of `value` of `full`, with a class for its color.
+/// Draws a bar of length @p value / @p full with a CSS class for its color.
 std::string bar(double value, double full, const std::string& css_class);
 
-}  // namespace stereod
+}  // namespace stereod::calib

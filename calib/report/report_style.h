@@ -1,9 +1,10 @@
-// How the report looks.
+// SPDX-License-Identifier: BSD-3-Clause
+// The report's style sheet.
 #pragma once
 
 #include <string_view>
 
-namespace stereod {
+namespace stereod::calib {
 
 inline constexpr std::string_view kReportStyle = R"css(
 :root { --ink:#1d2733; --quiet:#687585; --line:#dfe4ea; --paper:#fff; --ground:#f3f5f7; --used:#2f6fb2;
@@ -21,10 +22,10 @@ h2 { margin:0 0 4px; font-size:20px; }
 section { background:var(--paper); border:1px solid var(--line); border-radius:14px; padding:22px 28px;
   margin-top:18px; }
 section p { margin:0 0 14px; color:var(--quiet); max-width:90ch; }
-.figures { display:grid; grid-template-columns:repeat(4,1fr); gap:22px; }
-.figure b { display:block; font-size:32px; line-height:1.2; font-variant-numeric:tabular-nums; }
-.figure small { font-size:16px; font-weight:400; margin-left:4px; color:var(--quiet); }
-.figure span { color:var(--quiet); font-size:13.5px; display:block; }
+.stats { display:grid; grid-template-columns:repeat(4,1fr); gap:22px; }
+.stat b { display:block; font-size:32px; line-height:1.2; font-variant-numeric:tabular-nums; }
+.stat small { font-size:16px; font-weight:400; margin-left:4px; color:var(--quiet); }
+.stat span { color:var(--quiet); font-size:13.5px; display:block; }
 .two { display:grid; grid-template-columns:1fr 1fr; gap:24px; align-items:center; }
 figure { margin:0; } figcaption { margin-top:8px; font-size:14px; }
 svg { display:block; width:100%; height:auto; }
@@ -50,15 +51,15 @@ tr:last-child td { border-bottom:0; }
 tr.out td { background:#fdf1f0; } tr.out em { color:var(--again); font-style:normal; font-weight:600; }
 .numbers { width:auto; display:inline-table; margin-right:40px; vertical-align:top; }
 footer { color:var(--quiet); font-size:13px; margin-top:16px; text-align:center; }
-@media (max-width:800px) { .two,.figures { grid-template-columns:1fr; } }
+@media (max-width:800px) { .two,.stats { grid-template-columns:1fr; } }
 @media print { body { background:#fff; } section,header { break-inside:avoid; } }
 )css";
 
-/// The pattern of cells that saw nothing.
+/// SVG pattern of cells without a corner.
 inline constexpr std::string_view kHatching = R"svg(
 <svg width="0" height="0" style="position:absolute"><defs>
 <pattern id="hatching" width="14" height="14" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
 <rect width="14" height="14" fill="#fff"/><rect width="5" height="14" fill="#e2e6ea"/></pattern></defs></svg>
 )svg";
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,6 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/solve/camera_solver.h"
 
-#include <array>
 #include <opencv2/calib3d.hpp>
 #include <optional>
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "calib/base/errors.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
@@ -30,13 +30,13 @@ ImagePoints points_of(const Corners& corners) {
   return points;
 }
 
-// calibrateCamera wants single precision.
-std::vector<std::vector<cv::Point3f>> single(const std::vector<ObjectPoints>& lists) {
+// cv::calibrateCamera() and cv::stereoCalibrate() need single precision.
+std::vector<std::vector<cv::Point3f>> single_precision(const std::vector<ObjectPoints>& lists) {
   std::vector<std::vector<cv::Point3f>> result;
   for (const ObjectPoints& list : lists) result.emplace_back(list.begin(), list.end());
   return result;
 }
-std::vector<std::vector<cv::Point2f>> single(const std::vector<ImagePoints>& lists) {
+std::vector<std::vector<cv::Point2f>> single_precision(const std::vector<ImagePoints>& lists) {
   std::vector<std::vector<cv::Point2f>> result;
   for (const ImagePoints& list : lists) result.emplace_back(list.begin(), list.end());
   return result;
@@ -55,7 +55,7 @@ int pinhole_flags(LensChoice lens) {
   }
 }
 
-std::size_t coefficients_of(LensChoice lens) {
+std::size_t coefficient_count(LensChoice lens) {
   switch (lens) {
     case LensChoice::kPinhole:
       return 5;
@@ -71,7 +71,7 @@ std::size_t coefficients_of(LensChoice lens) {
   return 5;
 }
 
-cv::TermCriteria until_steady() { return {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 200, 1e-9}; }
+cv::TermCriteria until_converged() { return {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 200, 1e-9}; }
 
 cv::Mat matrix_of(const CameraModel& m) {
   return (cv::Mat_<double>(3, 3) << m.fx, 0, m.cx, 0, m.fy, m.cy, 0, 0, 1);
@@ -82,7 +82,7 @@ CameraModel model_of(Size image, const cv::Mat& matrix, const cv::Mat& lens, Len
                 matrix.at<double>(1, 2)};
   m.lens = choice == LensChoice::kFisheye ? LensModel::kFisheye : LensModel::kPinhole;
   std::vector<double> coefficients = lens.reshape(1, 1);
-  coefficients.resize(coefficients_of(choice));
+  coefficients.resize(coefficient_count(choice));
   set_distortion(m, coefficients);
   return m;
 }
@@ -93,10 +93,11 @@ Matrix3 matrix3_of(const cv::Matx33d& m) {
   return result;
 }
 
-[[noreturn]] void no_solution(const std::string& what) {
-  throw CalibrationError(what +
-                         " cannot be worked out from these images; take more, with the board tilted in "
-                         "different directions, near and far, in every part of the image");
+[[noreturn]] void fail(const std::string& what) {
+  throw CalibrationError(
+      "cannot solve for " + what +
+      " from these images; take more pairs, with the board tilted in different directions, near "
+      "and far, in every part of the image");
 }
 
 }  // namespace
@@ -122,15 +123,16 @@ CameraSolution solve_camera(Size image, const Board& board, std::span<const Corn
     if (lens == LensChoice::kFisheye) {
       const int flags = cv::fisheye::CALIB_RECOMPUTE_EXTRINSIC | cv::fisheye::CALIB_FIX_SKEW;
       solution.rms_px = cv::fisheye::calibrate(boards, seen, size, matrix, distortion, rotations,
-                                               translations, flags, until_steady());
+                                               translations, flags, until_converged());
     } else {
-      solution.rms_px = cv::calibrateCamera(single(boards), single(seen), size, matrix, distortion, rotations,
-                                            translations, pinhole_flags(lens), until_steady());
+      solution.rms_px =
+          cv::calibrateCamera(single_precision(boards), single_precision(seen), size, matrix, distortion,
+                              rotations, translations, pinhole_flags(lens), until_converged());
     }
   } catch (const cv::Exception&) {
-    no_solution("the camera");
+    fail("the camera parameters");
   }
-  if (!cv::checkRange(matrix) || !cv::checkRange(distortion)) no_solution("the camera");
+  if (!cv::checkRange(matrix) || !cv::checkRange(distortion)) fail("the camera parameters");
   solution.camera = model_of(image, matrix, distortion, lens);
   return solution;
 }
@@ -145,8 +147,8 @@ StereoSolution solve_stereo(const Board& board, std::span<const BoardPair> pairs
   const std::vector<ObjectPoints> boards(pairs.size(), points_of(board));
   cv::Mat matrix_left = matrix_of(left), matrix_right = matrix_of(right);
   cv::Mat lens_left(distortion_of(left), true), lens_right(distortion_of(right), true);
-  lens_left.resize(coefficients_of(lens), cv::Scalar(0));
-  lens_right.resize(coefficients_of(lens), cv::Scalar(0));
+  lens_left.resize(coefficient_count(lens), cv::Scalar(0));
+  lens_right.resize(coefficient_count(lens), cv::Scalar(0));
   cv::Mat rotation, translation, essential, fundamental;
   const cv::Size size(left.image.width, left.image.height);
   StereoSolution solution;
@@ -155,18 +157,19 @@ StereoSolution solve_stereo(const Board& board, std::span<const BoardPair> pairs
       const int flags = cv::fisheye::CALIB_USE_INTRINSIC_GUESS | cv::fisheye::CALIB_FIX_SKEW;
       solution.rms_px =
           cv::fisheye::stereoCalibrate(boards, seen_left, seen_right, matrix_left, lens_left, matrix_right,
-                                       lens_right, size, rotation, translation, flags, until_steady());
+                                       lens_right, size, rotation, translation, flags, until_converged());
     } else {
       const int flags = cv::CALIB_USE_INTRINSIC_GUESS | pinhole_flags(lens);
-      solution.rms_px = cv::stereoCalibrate(single(boards), single(seen_left), single(seen_right),
-                                            matrix_left, lens_left, matrix_right, lens_right, size, rotation,
-                                            translation, essential, fundamental, flags, until_steady());
+      solution.rms_px =
+          cv::stereoCalibrate(single_precision(boards), single_precision(seen_left),
+                              single_precision(seen_right), matrix_left, lens_left, matrix_right, lens_right,
+                              size, rotation, translation, essential, fundamental, flags, until_converged());
     }
   } catch (const cv::Exception&) {
-    no_solution("how the cameras stand to each other");
+    fail("the relative pose of the cameras");
   }
   if (!cv::checkRange(matrix_left) || !cv::checkRange(matrix_right) || !cv::checkRange(translation)) {
-    no_solution("how the cameras stand to each other");
+    fail("the relative pose of the cameras");
   }
   solution.cameras.left = model_of(left.image, matrix_left, lens_left, lens);
   solution.cameras.right = model_of(right.image, matrix_right, lens_right, lens);
@@ -180,24 +183,24 @@ BoardPose solve_pose(const CameraModel& camera, const Board& board, const Corner
   ObjectPoints object;
   ImagePoints seen;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const auto straight = camera.undistort(camera.from_pixel(corners[i]));
-    if (!straight) continue;
+    const auto undistorted = camera.undistort(camera.from_pixel(corners[i]));
+    if (!undistorted) continue;
     const Vector3 p = board_point(board, i);
     object.emplace_back(p.x, p.y, p.z);
-    seen.emplace_back(straight->x, straight->y);
+    seen.emplace_back(undistorted->x, undistorted->y);
   }
-  if (object.size() < 6) no_solution("where the board is");
-  cv::Vec3d turn, translation;
+  if (object.size() < 6) fail("the pose of the board");
+  cv::Vec3d rotation_vector, translation;
   cv::Matx33d rotation;
   try {
-    if (!cv::solvePnP(object, seen, cv::Matx33d::eye(), cv::noArray(), turn, translation)) {
-      no_solution("where the board is");
+    if (!cv::solvePnP(object, seen, cv::Matx33d::eye(), cv::noArray(), rotation_vector, translation)) {
+      fail("the pose of the board");
     }
-    cv::Rodrigues(turn, rotation);
+    cv::Rodrigues(rotation_vector, rotation);
   } catch (const cv::Exception&) {
-    no_solution("where the board is");
+    fail("the pose of the board");
   }
   return {matrix3_of(rotation), {translation[0], translation[1], translation[2]}};
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

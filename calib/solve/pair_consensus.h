@@ -1,4 +1,5 @@
-// Which pairs were taken by cameras that stood alike.
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds the relative camera pose that most pairs support.
 #pragma once
 
 #include <span>
@@ -6,24 +7,19 @@
 
 #include "calib/solve/pair_geometry.h"
 
-namespace stereod {
+namespace stereod::calib {
 
-/// One pair and where each camera, for itself, sees the board.
+/// One pair and the board's pose for each camera alone.
 struct PosedPair {
   BoardPair corners;
   BoardPose in_left, in_right;
 };
 
-/// The error of each pair, px, under the relative pose that most pairs agree on: of the poses that single
-/// pairs mean, the one with the least median error (Rousseeuw 1984). A pair whose board moved between the two
-/// images stands out by far, even where such pairs are not few. `cameras.pose` is not looked at.
-std::vector<double> disagreement_px(const StereoRigEstimate& cameras, const Board& board,
-                                    std::span<const PosedPair> pairs);
+/// Returns the error [px] of each pair under the relative pose that most pairs support: of the relative poses of
+/// the single pairs, the one with the least median error (least median of squares, Rousseeuw 1984). A pair whose
+/// board moved between the two images has a large error, even if almost half of the pairs are such outliers.
+/// Ignores `cameras.pose`.
+std::vector<double> consensus_errors_px(const StereoRigEstimate& cameras, const Board& board,
+                                        std::span<const PosedPair> pairs);
 
-/// The median of at least one number; of an even number of them the upper of the two in the middle.
-double median(std::vector<double> values);
-
-/// `count` of `from` places, evenly spread; count ≤ from.
-std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t from);
-
-}  // namespace stereod
+}  // namespace stereod::calib

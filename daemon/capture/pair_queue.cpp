@@ -56,6 +56,17 @@ std::optional<LeasedPair> PairQueue::wait_pair(const std::atomic<bool>& cancelle
   return pairing_.take();
 }
 
+std::optional<LeasedPair> PairQueue::wait_pair_for(std::chrono::milliseconds timeout) noexcept {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, timeout, [&] { return closed_ || pairing_.has_pair(); });
+  return pairing_.take();
+}
+
+bool PairQueue::is_finished() const noexcept {
+  const std::lock_guard lock(mutex_);
+  return closed_ && !pairing_.has_pair();
+}
+
 void PairQueue::wake_consumer() noexcept {
   const std::lock_guard lock(mutex_);
   changed_.notify_all();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
@@ -57,6 +58,13 @@ class PairQueue {
   /// empty, or if @p cancelled is true; after setting it, call wake_consumer(). A pair that is in the queue
   /// when the consumer is cancelled stays for the next consumer.
   std::optional<LeasedPair> wait_pair(const std::atomic<bool>& cancelled) noexcept;
+
+  /// Blocks until a pair is ready, the queue is closed, or @p timeout [ms, ≥ 0] has passed. Returns the newest
+  /// pair, or nothing. For a consumer without a thread of its own.
+  std::optional<LeasedPair> wait_pair_for(std::chrono::milliseconds timeout) noexcept;
+
+  /// Returns whether the queue is closed and its last pair was taken.
+  bool is_finished() const noexcept;
 
   /// Returns true while a consumer is blocked and there is no pair.
   bool consumer_waits() const noexcept;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/board_scene.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 #include "daemon/capture/synthetic/synthetic_board.h"
 #include "tests/support/random_images.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
@@ -51,17 +52,17 @@ BoardScene::View BoardScene::make_view(const CameraModel& camera) {
 
 GrayImage BoardScene::render(const View& view, const BoardPose& pose, std::uint64_t noise_seed) const {
   Random random(noise_seed);
-  GrayImage picture(view.camera.image);
+  GrayImage image(view.camera.image);
   const SyntheticBoard board(shape_of(board_), {pose.rotation, pose.translation_m}, view.camera.fx);
-  for (int y = 0; y < picture.height(); ++y) {
-    SceneHit ground;  // infinitely far off
-    ground.brightness = 90 + 20 * static_cast<float>(y) / static_cast<float>(picture.height());
-    for (int x = 0; x < picture.width(); ++x) {
+  for (int y = 0; y < image.height(); ++y) {
+    SceneHit ground;  // at infinity
+    ground.brightness = 90 + 20 * static_cast<float>(y) / static_cast<float>(image.height());
+    for (int x = 0; x < image.width(); ++x) {
       const double gray = board.hit({0, view.ray_x.at(x, y), view.ray_y.at(x, y)}, ground).brightness;
-      picture.at(x, y) = static_cast<std::uint8_t>(std::clamp(gray + random.between(-3, 3), 0.0, 255.0));
+      image.at(x, y) = static_cast<std::uint8_t>(std::clamp(gray + random.between(-3, 3), 0.0, 255.0));
     }
   }
-  return picture;
+  return image;
 }
 
 ImagePair BoardScene::render(const BoardPose& in_left, std::uint64_t noise_seed) const {
@@ -69,9 +70,9 @@ ImagePair BoardScene::render(const BoardPose& in_left, std::uint64_t noise_seed)
           render(right_, seen_from_right(cameras_.pose, in_left), 2 * noise_seed + 1)};
 }
 
-GrayImage copy_of(const GrayImage& picture) {
-  GrayImage result(picture.size());
-  copy_pixels(picture.view(), result.view());
+GrayImage copy_of(const GrayImage& image) {
+  GrayImage result(image.size());
+  copy_pixels(image.view(), result.view());
   return result;
 }
 
@@ -94,4 +95,15 @@ std::vector<BoardPose> varied_poses(const Board& board, int count) {
   return poses;
 }
 
-}  // namespace stereod
+Corners projected_corners(const CameraModel& camera, const Board& board, const BoardPose& pose) {
+  Corners corners;
+  for (std::size_t i = 0; i < board.corner_count(); ++i) {
+    const Vector3 p = pose.rotation * board_point(board, i);
+    const double z = p.z + pose.translation_m.z;
+    corners.push_back(camera.to_pixel(
+        camera.distort({(p.x + pose.translation_m.x) / z, (p.y + pose.translation_m.y) / z})));
+  }
+  return corners;
+}
+
+}  // namespace stereod::calib

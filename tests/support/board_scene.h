@@ -1,4 +1,5 @@
-// A chessboard before two cameras of which everything is known.
+// SPDX-License-Identifier: BSD-3-Clause
+// Renders a chessboard seen by two cameras with known parameters.
 #pragma once
 
 #include <cstdint>
@@ -8,25 +9,24 @@
 #include "calib/board/board.h"
 #include "calib/solve/pair_geometry.h"
 
-namespace stereod {
+namespace stereod::calib {
 
-/// Two ordinary cameras, not quite alike, 6 cm apart and a little turned to each other, with lenses of this
-/// model.
+/// Returns two slightly different webcams, 6 cm apart and slightly rotated relative to each other, with lenses of
+/// model @p lens.
 StereoRigEstimate known_cameras(Size image, LensModel lens = LensModel::kPinhole);
 
-/// Renders a board of dark and bright squares with a white border on gray ground, with smooth edges as a lens
-/// makes them and a little noise.
+/// Renders a chessboard with a white border on a gray background, with smooth edges and noise.
 class BoardScene {
  public:
   BoardScene(const StereoRigEstimate& cameras, const Board& board);
 
-  /// The board in a pose for the left camera.
+  /// Renders both images. @p in_left is the board's pose for the left camera.
   ImagePair render(const BoardPose& in_left, std::uint64_t noise_seed) const;
 
  private:
   struct View {
     CameraModel camera;
-    Image<float> ray_x, ray_y;  // (x, y, 1) of each pixel; NaN where the lens shows nothing
+    Image<float> ray_x, ray_y;  // ray (x, y, 1) of each pixel; NaN where the lens has none
   };
   static View make_view(const CameraModel& camera);
   GrayImage render(const View& view, const BoardPose& pose, std::uint64_t noise_seed) const;
@@ -36,15 +36,18 @@ class BoardScene {
   View left_, right_;
 };
 
-/// Images own their memory; a test that spoils one works on a copy.
-GrayImage copy_of(const GrayImage& picture);
+/// Returns a deep copy, for a test that modifies images.
+GrayImage copy_of(const GrayImage& image);
 std::vector<ImagePair> copy_of(const std::vector<ImagePair>& pairs);
 
-/// A board whose middle is at `middle` for the left camera, facing it, then turned by `turn` (a rotation
-/// vector).
+/// Returns the pose of a board with its center at @p middle for the left camera, facing it, then rotated by @p turn
+/// (a rotation vector).
 BoardPose board_at(const Board& board, const Vector3& middle, const Vector3& turn);
 
-/// Poses that cover the image of known_cameras(): near and far, in all corners, tilted each way.
+/// Returns poses that cover the image of known_cameras(): near and far, in all corners, tilted in every direction.
 std::vector<BoardPose> varied_poses(const Board& board, int count);
 
-}  // namespace stereod
+/// Returns the exact corners of a board at @p pose in the image of @p camera.
+Corners projected_corners(const CameraModel& camera, const Board& board, const BoardPose& pose);
+
+}  // namespace stereod::calib

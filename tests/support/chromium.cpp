@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/chromium.h"
 
 #include <fcntl.h>
@@ -17,7 +18,7 @@
 namespace stereod {
 namespace {
 
-constexpr int kPatience = 60'000;  // ms
+constexpr int kTimeout_ms = 60'000;
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -47,10 +48,10 @@ std::string from_base64(std::string_view text) {
   return bytes;
 }
 
-/// A JSON text in the answer behind `name`, escapes resolved: JSON is YAML.
-std::string text_behind(const std::string& answer, const std::string& name) {
+// Returns the JSON string of member `name` in the answer, unescaped by the YAML parser: JSON is YAML.
+std::string member(const std::string& answer, const std::string& name) {
   const std::size_t at = answer.find("\"" + name + "\":\"");
-  if (at == std::string::npos) throw std::runtime_error("Chromium answers " + answer.substr(0, 1000));
+  if (at == std::string::npos) throw std::runtime_error("Chromium answered " + answer.substr(0, 1000));
   std::size_t end = at + name.size() + 4;
   while (answer[end] != '"') end += answer[end] == '\\' ? 2 : 1;
   const std::size_t begin = at + name.size() + 3;
@@ -69,7 +70,7 @@ std::optional<std::filesystem::path> Chromium::program() {
 Chromium::Chromium(const std::filesystem::path& program, const std::filesystem::path& scratch) {
   int commands[2], answers[2];
   if (pipe2(commands, O_CLOEXEC) != 0 || pipe2(answers, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-  // Above the numbers that Chromium expects, so that neither end is overwritten before it is copied.
+  // Chromium expects descriptors 3 and 4. Higher numbers for the ends keep dup2 from overwriting them.
   const int reads = fcntl(commands[0], F_DUPFD_CLOEXEC, 10), writes = fcntl(answers[1], F_DUPFD_CLOEXEC, 10);
   close(commands[0]);
   close(answers[1]);
@@ -98,7 +99,8 @@ Chromium::Chromium(const std::filesystem::path& program, const std::filesystem::
   argv.push_back(nullptr);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // with its children it is a group of its own
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETPGROUP);  // a process group, so that its children are ended too
   const int error = posix_spawn(&child_, argv[0], &actions, &attributes, argv.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
@@ -124,7 +126,7 @@ std::string Chromium::read_message() {
     }
     pollfd waiting{from_, POLLIN, 0};
     std::array<char, 65536> bytes{};
-    const ssize_t got = poll(&waiting, 1, kPatience) == 1 ? read(from_, bytes.data(), bytes.size()) : 0;
+    const ssize_t got = poll(&waiting, 1, kTimeout_ms) == 1 ? read(from_, bytes.data(), bytes.size()) : 0;
     if (got <= 0) throw std::runtime_error("Chromium does not answer");
     buffer_.append(bytes.data(), static_cast<std::size_t>(got));
   }
@@ -136,7 +138,7 @@ std::string Chromium::call(const std::string& method, const std::string& paramet
   if (!session_.empty()) message += ",\"sessionId\":\"" + session_ + "\"";
   message += "}";
   if (write(to_, message.c_str(), message.size() + 1) != static_cast<ssize_t>(message.size() + 1)) {
-    throw std::runtime_error("Chromium has gone");
+    throw std::runtime_error("Chromium closed its pipe");
   }
   while (true) {
     std::string answer = read_message();
@@ -145,9 +147,9 @@ std::string Chromium::call(const std::string& method, const std::string& paramet
 }
 
 void Chromium::open(const std::string& url, int width, int height) {
-  const std::string target = text_behind(call("Target.createTarget", "\"url\":\"about:blank\""), "targetId");
-  session_ = text_behind(call("Target.attachToTarget", "\"targetId\":\"" + target + "\",\"flatten\":true"),
-                         "sessionId");
+  const std::string target = member(call("Target.createTarget", "\"url\":\"about:blank\""), "targetId");
+  session_ =
+      member(call("Target.attachToTarget", "\"targetId\":\"" + target + "\",\"flatten\":true"), "sessionId");
   call("Emulation.setDeviceMetricsOverride", "\"width\":" + std::to_string(width) +
                                                  ",\"height\":" + std::to_string(height) +
                                                  ",\"deviceScaleFactor\":1,\"mobile\":false");
@@ -155,15 +157,14 @@ void Chromium::open(const std::string& url, int width, int height) {
 }
 
 std::string Chromium::evaluate(const std::string& expression) {
-  return text_behind(
-      call("Runtime.evaluate", "\"returnByValue\":true,\"awaitPromise\":true,\"expression\":" +
-                                   quoted("(async () => String(await (" + expression + ")))()")),
-      "value");
+  return member(call("Runtime.evaluate", "\"returnByValue\":true,\"awaitPromise\":true,\"expression\":" +
+                                             quoted("(async () => String(await (" + expression + ")))()")),
+                "value");
 }
 
 void Chromium::screenshot(const std::filesystem::path& file) {
   const std::string answer = call("Page.captureScreenshot", "\"format\":\"png\"");
-  const std::string png = from_base64(text_behind(answer, "data"));
+  const std::string png = from_base64(member(answer, "data"));
   std::ofstream(file, std::ios::binary) << png;
 }
 

@@ -1,4 +1,5 @@
-// A headless Chromium that a test looks at a page with.
+// SPDX-License-Identifier: BSD-3-Clause
+// A headless Chromium for tests of web pages.
 #pragma once
 
 #include <sys/types.h>
@@ -9,22 +10,23 @@
 
 namespace stereod {
 
-/// Speaks Chromium's own protocol over a pipe: no port is opened. Ended by the destructor.
+/// Controls Chromium with its DevTools protocol over a pipe; opens no port. The destructor ends Chromium.
 class Chromium {
  public:
-  /// Nothing if there is no Chromium here. `scratch`: for its profile.
+  /// Returns the path of an installed Chromium or Chrome.
   static std::optional<std::filesystem::path> program();
+  /// Starts @p program with its profile in @p scratch. @throws std::runtime_error if it cannot be started.
   Chromium(const std::filesystem::path& program, const std::filesystem::path& scratch);
   ~Chromium();
   Chromium(const Chromium&) = delete;
   Chromium& operator=(const Chromium&) = delete;
 
-  /// Throws std::runtime_error if Chromium does not answer.
+  /// Opens @p url in a window of this size [px]. @throws std::runtime_error if Chromium does not answer within 60 s.
   void open(const std::string& url, int width, int height);
-  /// The text that a JavaScript expression (or promise) gives. Throws std::runtime_error with Chromium's
-  /// answer if it gives none.
+  /// Returns the value of a JavaScript expression or promise as text.
+  /// @throws std::runtime_error with Chromium's answer if the expression fails.
   std::string evaluate(const std::string& expression);
-  /// The visible page as PNG.
+  /// Writes the visible page as PNG.
   void screenshot(const std::filesystem::path& file);
 
  private:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/image_files.h"
 
 #include <png.h>
@@ -77,7 +78,7 @@ Rgb palette_color(int index) {
           static_cast<std::uint8_t>(40 + 13 * index)};
 }
 
-// On an error libpng's default handler aborts the test, which is loud enough here.
+// libpng's default error handler aborts the test.
 Bytes make_png(PngKind kind, int depth, bool interlaced, Size size, const std::vector<int>& samples) {
   Bytes bytes;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);

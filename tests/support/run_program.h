@@ -1,4 +1,5 @@
-// Programs as a test's children.
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs programs as child processes of a test.
 #pragma once
 
 #include <sys/types.h>
@@ -9,18 +10,18 @@
 
 namespace stereod {
 
-/// The words that start a program: its path; before it, if it was built beside the tests and is foreign to
-/// this machine, the emulator that runs the tests themselves.
+/// Returns the command line that starts @p program: its path, preceded by the emulator that runs the tests if the
+/// program was cross-compiled with them.
 std::vector<std::string> starter_of(const std::filesystem::path& program);
 
 struct ProgramRun {
-  int status = -1;  ///< exit status; 128 + the signal if one ended it; -1 if it could not be started
+  int status = -1;  ///< exit status; 128 + signal number if a signal ended it; -1 if it could not be started
   std::string out;
   std::string err;
 };
 
-/// A program that runs beside the test, without input. Its output goes to files in `scratch`. Still running
-/// at the end of the test, it is killed.
+/// A program that runs concurrently with the test, with empty standard input and its output in files in @p scratch.
+/// The destructor kills it if it still runs.
 class ChildProgram {
  public:
   ChildProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
@@ -30,11 +31,11 @@ class ChildProgram {
   ChildProgram& operator=(const ChildProgram&) = delete;
 
   void send(int signal) const;
-  /// Waits for its end.
+  /// Waits until the program has ended.
   ProgramRun wait();
-  /// What it has written to stderr so far.
+  /// Returns the output to stderr so far.
   std::string err_so_far() const;
-  /// The same of stdout.
+  /// Returns the output to stdout so far.
   std::string out_so_far() const;
 
  private:
@@ -42,7 +43,7 @@ class ChildProgram {
   pid_t child_ = 0;  // 0: not running
 };
 
-/// Runs a program to its end.
+/// Runs a program and waits until it has ended.
 ProgramRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                        const std::filesystem::path& scratch);
 

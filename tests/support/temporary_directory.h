@@ -1,4 +1,5 @@
-// A place for a test to write to.
+// SPDX-License-Identifier: BSD-3-Clause
+// A temporary directory for one test.
 #pragma once
 
 #include <stdlib.h>
@@ -10,12 +11,12 @@
 
 namespace stereod {
 
-/// A new directory below the system's temporary one, removed with all that is in it.
+/// Creates a directory below the system's temporary directory; the destructor removes it with its contents.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {
     std::string name = (std::filesystem::temp_directory_path() / "stereod-test-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create a temporary directory");
     path_ = name;
   }
   ~TemporaryDirectory() {

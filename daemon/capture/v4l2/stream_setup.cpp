@@ -3,7 +3,6 @@
 #include "daemon/capture/v4l2/stream_setup.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <vector>
 
 #include "core/base/text.h"
@@ -11,12 +10,6 @@
 
 namespace stereod::v4l2 {
 namespace {
-
-std::string rate_text(double fps) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g Hz", fps);
-  return text;
-}
 
 std::optional<CameraFault> open_capture_device(VideoDevice& device, const std::string& node,
                                                StreamInfo& info) {
@@ -89,8 +82,8 @@ std::optional<CameraFault> agree_on_format(VideoDevice& device, const StreamOpti
 
 std::string describe(const StreamInfo& info) {
   if (info.pixel_format == nullptr) return {};
-  return fourcc_name(info.format.fourcc) + " " + to_string(info.format.size) + " at " + rate_text(info.fps) +
-         (info.converted ? " (converted by libv4l2)" : "");
+  return fourcc_name(info.format.fourcc) + " " + to_string(info.format.size) + " at " +
+         significant(info.fps, 4) + " Hz" + (info.converted ? " (converted by libv4l2)" : "");
 }
 
 std::optional<CameraFault> set_up_device(VideoDevice& device, const StreamOptions& options,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/board/board_sheet.h"
 
 #include <gmock/gmock.h>
@@ -8,7 +9,7 @@
 
 #include "calib/base/errors.h"
 
-namespace stereod {
+namespace stereod::calib {
 namespace {
 
 using testing::HasSubstr;
@@ -30,7 +31,7 @@ std::size_t count(const std::string& text, const std::string& word) {
   return found;
 }
 
-TEST(BoardSheet, ChoosesThePapersSide) {
+TEST(BoardSheet, Paper_OrientedToFit) {
   EXPECT_EQ(paper_for("a4", kBoard).width_mm, 297);
   EXPECT_EQ(paper_for("A4", kBoard).width_mm, 297);
   EXPECT_EQ(paper_for("a4", (Board{5, 8, 0.025})).width_mm, 210);
@@ -40,7 +41,7 @@ TEST(BoardSheet, ChoosesThePapersSide) {
   EXPECT_THAT(refusal("a7", kBoard), HasSubstr("found 'a7', allowed are a4"));
 }
 
-TEST(BoardSheet, SvgIsInMillimetresAndTrueSize) {
+TEST(BoardSheet, Svg_TrueSize) {
   const std::string svg = board_svg(kBoard, paper_for("a4", kBoard));
   EXPECT_THAT(svg, HasSubstr("width=\"297.00mm\" height=\"210.00mm\" viewBox=\"0 0 297.00 210.00\""));
   EXPECT_EQ(count(svg, "width=\"25.0000\" height=\"25.0000\""), 35U);  // half of 10×7 squares
@@ -48,7 +49,7 @@ TEST(BoardSheet, SvgIsInMillimetresAndTrueSize) {
   EXPECT_THAT(svg, HasSubstr("Squares of 25.00 mm, 9 x 6 inner corners"));
 }
 
-TEST(BoardSheet, PdfIsInPointsAndItsTableOfContentsIsRight) {
+TEST(BoardSheet, Pdf_PointsAndXref) {
   const std::string pdf = board_pdf(kBoard, paper_for("a4", kBoard));
   EXPECT_THAT(pdf, HasSubstr("/MediaBox [0 0 841.8898 595.2756]"));
   EXPECT_EQ(count(pdf, " 70.8661 70.8661 re f"), 35U);  // 25 mm in 1/72 inch
@@ -66,4 +67,4 @@ TEST(BoardSheet, PdfIsInPointsAndItsTableOfContentsIsRight) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/board/board.h"
 
 #include <gtest/gtest.h>
@@ -8,10 +9,10 @@
 #include "calib/board/corner_order.h"
 #include "tests/support/board_scene.h"
 
-namespace stereod {
+namespace stereod::calib {
 namespace {
 
-TEST(Board, ReadsItsSize) {
+TEST(Board, Parse_InnerCorners) {
   EXPECT_EQ(parse_board("9x6"), (Board{9, 6, 0}));
   EXPECT_EQ(parse_board("11×8"), (Board{11, 8, 0}));
   EXPECT_EQ(parse_board("3X50"), (Board{3, 50, 0}));
@@ -20,7 +21,7 @@ TEST(Board, ReadsItsSize) {
   }
 }
 
-TEST(Board, ReadsLengthsWithTheirUnit) {
+TEST(Board, ParseLength_Units) {
   EXPECT_EQ(parse_length("25mm", "--square"), 0.025);
   EXPECT_EQ(parse_length("2.5cm", "--square"), 0.025);
   EXPECT_EQ(parse_length("0.025m", "--square"), 0.025);
@@ -32,62 +33,50 @@ TEST(Board, ReadsLengthsWithTheirUnit) {
   }
 }
 
-TEST(Board, TellsWhichBoardsLookTheSameAfterHalfATurn) {
+TEST(Board, Ambiguous_EvenOrOddCounts) {
   EXPECT_FALSE((Board{9, 6, 0}.ambiguous()));
   EXPECT_TRUE((Board{8, 6, 0}.ambiguous()));
   EXPECT_TRUE((Board{9, 7, 0}.ambiguous()));
 }
 
-// The corners of a rendered board, exactly.
-Corners seen(const CameraModel& camera, const Board& board, const BoardPose& pose) {
-  Corners corners;
-  for (std::size_t i = 0; i < board.corner_count(); ++i) {
-    const Vector3 p = pose.rotation * board_point(board, i);
-    const double z = p.z + pose.translation_m.z;
-    corners.push_back(camera.to_pixel(
-        camera.distort({(p.x + pose.translation_m.x) / z, (p.y + pose.translation_m.y) / z})));
-  }
-  return corners;
-}
-
-bool same(const Corners& a, const Corners& b) {
+bool equal(const Corners& a, const Corners& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](Point2 p, Point2 q) { return p.x == q.x && p.y == q.y; });
 }
 
-TEST(CornerOrder, ComesOutTheSameFromEveryListing) {
+TEST(CornerOrder, AnyListing_SameOrder) {
   const Board board{9, 6, 0.025};
   const StereoRigEstimate cameras = known_cameras({320, 240});
   const BoardScene scene(cameras, board);
   for (const double roll : {0.0, 1.5, 3.0}) {
     const BoardPose pose = board_at(board, {0, 0, 0.5}, {0.1, 0, roll});
-    const ImagePair picture = scene.render(pose, 1);
-    const Corners truth = seen(cameras.left, board, pose);
+    const ImagePair pair = scene.render(pose, 1);
+    const Corners truth = projected_corners(cameras.left, board, pose);
     Corners mirrored = truth;
     for (int row = 0; row < 6; ++row)
       std::reverse(mirrored.begin() + row * 9, mirrored.begin() + row * 9 + 9);
     for (const Corners& listed : {truth, half_turned(truth), mirrored, half_turned(mirrored)}) {
-      EXPECT_TRUE(same(in_board_order(picture.left.view(), board, listed), truth));
+      EXPECT_TRUE(equal(in_board_order(pair.left.view(), board, listed), truth));
     }
   }
 }
 
-TEST(CornerOrder, AnAmbiguousBoardIsTurnedLikeInTheOtherCamera) {
+TEST(CornerOrder, AmbiguousBoard_TurnedLikeReference) {
   const CameraModel camera = known_cameras({320, 240}).left;
   const Board even{8, 6, 0.025}, square{7, 7, 0.025};
   for (const Board& board : {even, square}) {
-    const Corners left = seen(camera, board, board_at(board, {0, 0, 0.5}, {0, 0, 0.1}));
-    const Corners right = seen(camera, board, board_at(board, {0, 0, 0.5}, {0, 0, 0.15}));
-    EXPECT_TRUE(same(*turned_like(left, board, right), right));
-    EXPECT_TRUE(same(*turned_like(left, board, half_turned(right)), right));
+    const Corners left = projected_corners(camera, board, board_at(board, {0, 0, 0.5}, {0, 0, 0.1}));
+    const Corners right = projected_corners(camera, board, board_at(board, {0, 0, 0.5}, {0, 0, 0.15}));
+    EXPECT_TRUE(equal(*turned_like(left, board, right), right));
+    EXPECT_TRUE(equal(*turned_like(left, board, half_turned(right)), right));
   }
-  const Corners left = seen(camera, even, board_at(even, {0, 0, 0.5}, {0, 0, 0}));
-  const Corners aside = seen(camera, even, board_at(even, {0, 0, 0.5}, {0, 0, 1.5}));
+  const Corners left = projected_corners(camera, even, board_at(even, {0, 0, 0.5}, {0, 0, 0}));
+  const Corners aside = projected_corners(camera, even, board_at(even, {0, 0, 0.5}, {0, 0, 1.5}));
   EXPECT_FALSE(turned_like(left, even, aside).has_value());
   const Board told{9, 6, 0.025};
-  const Corners any = seen(camera, told, board_at(told, {0, 0, 0.5}, {0, 0, 3}));
-  EXPECT_TRUE(same(*turned_like(left, told, any), any));
+  const Corners any = projected_corners(camera, told, board_at(told, {0, 0, 0.5}, {0, 0, 3}));
+  EXPECT_TRUE(equal(*turned_like(left, told, any), any));
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::calib

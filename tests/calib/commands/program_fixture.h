@@ -1,10 +1,13 @@
-// What the tests of stereo-calibrate as a program share: rendered pairs, and how it is run.
+// SPDX-License-Identifier: BSD-3-Clause
+// Fixture of tests that run stereo-calibrate as a process.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,16 +17,23 @@
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_directory.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 inline const Board kBoard{9, 6, 0.025};
 inline constexpr Size kImage{320, 240};
+
+inline std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
 
 inline std::string two_digits(std::size_t number) {
   return (number < 10 ? "0" : "") + std::to_string(number) + ".png";
 }
 
-// A directory with rendered pairs of known cameras, made once.
+// Renders pairs of known_cameras() into a directory, once per test suite.
 class Program : public testing::Test {
  public:
   static void SetUpTestSuite() {
@@ -54,4 +64,4 @@ class Program : public testing::Test {
   TemporaryDirectory directory_;
 };
 
-}  // namespace stereod
+}  // namespace stereod::calib

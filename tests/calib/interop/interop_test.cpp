@@ -1,4 +1,5 @@
-// Calibrations of other programs.
+// SPDX-License-Identifier: BSD-3-Clause
+// Calibration files of ROS and Kalibr.
 #include "calib/interop/interop.h"
 
 #include <gmock/gmock.h>
@@ -11,7 +12,7 @@
 #include <random>
 #include <sstream>
 
-#include "calib/quality/distortion_foldover.h"
+#include "calib/interop/interop_checks.h"
 #include "core/geometry/stereo_rectification.h"
 #include "daemon/base/file.h"
 #include "daemon/base/file_error.h"
@@ -19,7 +20,7 @@
 #include "tests/support/image_files.h"
 #include "tests/support/temporary_directory.h"
 
-namespace stereod {
+namespace stereod::calib {
 namespace {
 
 using testing::HasSubstr;
@@ -42,7 +43,7 @@ Calibration some_calibration(int seed) {
   return c;
 }
 
-TEST(RosFiles, ComeBackToTheBit) {
+TEST(RosFiles, Export_ImportsBitExact) {
   const TemporaryDirectory directory;
   for (int seed = 0; seed < 40; ++seed) {
     const Calibration c = some_calibration(seed);
@@ -51,7 +52,7 @@ TEST(RosFiles, ComeBackToTheBit) {
   }
 }
 
-// As ROS' camera_calibration writes them: eight digits, no map of ours.
+// A file as ROS' camera_calibration writes it: eight digits, no map `stereod`.
 constexpr const char* kRosCamera = R"(image_width: 640
 image_height: 480
 camera_name: narrow_stereo
@@ -79,7 +80,7 @@ std::string ros_file(const std::string& shift) {
   return text.replace(text.find("SHIFT"), 5, shift);
 }
 
-TEST(RosFiles, AreReadAsRosWritesThem) {
+TEST(RosFiles, Import_RosOutput) {
   const TemporaryDirectory directory;
   write_text_file(directory / "l.yaml", ros_file("0"));
   write_text_file(directory / "r.yaml", ros_file("-24.63"));
@@ -92,8 +93,8 @@ TEST(RosFiles, AreReadAsRosWritesThem) {
   EXPECT_FALSE(problem_with(c).has_value());  // although the file's rotation has five digits
 }
 
-// A rotation that is one to 1e-6 only, as other programs leave it or a person's hand, is kept as it is.
-TEST(RosFiles, ComeBackToTheBitWithRotationsOfAnyProgram) {
+// A rotation that is orthonormal only within 1e-6 is kept unchanged.
+TEST(RosFiles, InexactRotation_ImportsBitExact) {
   const TemporaryDirectory directory;
   std::mt19937 random(8);
   double worst = 0;
@@ -124,12 +125,12 @@ std::vector<double> numbers_in(const std::filesystem::path& file) {
   return numbers;
 }
 
-// Another program's files, read and written again: every number is the same, to the bit.
-TEST(RosFiles, OfOtherProgramsGoOutAsTheyCameIn) {
+// A file of another program, read and written again, contains the same numbers bit for bit.
+TEST(RosFiles, ForeignFile_ExportsSameNumbers) {
   const TemporaryDirectory directory;
   std::mt19937 random(9);
   for (int round = 0; round < 50; ++round) {
-    // As camera_calibration writes them: 5 digits after the point, 8 in rotations.
+    // As camera_calibration writes them: 5 digits after the decimal point, 8 in rotations.
     const Calibration c = some_calibration(4 * round);
     const auto file = [&](const CameraCalibration& camera, double shift) {
       std::ostringstream text;
@@ -161,7 +162,7 @@ TEST(RosFiles, OfOtherProgramsGoOutAsTheyCameIn) {
   }
 }
 
-TEST(RosFiles, MistakesAreNamed) {
+TEST(RosFiles, Mistake_Named) {
   const TemporaryDirectory directory;
   const auto complaint = [&](const std::string& left, const std::string& right) {
     write_text_file(directory / "l.yaml", left);
@@ -171,7 +172,7 @@ TEST(RosFiles, MistakesAreNamed) {
   const std::string left = ros_file("0"), right = ros_file("-24.63");
   EXPECT_EQ(complaint(left, right), "");
   EXPECT_THAT(complaint(right, left), HasSubstr("exchange them"));
-  EXPECT_THAT(complaint(left, left), HasSubstr("no stereo pair"));
+  EXPECT_THAT(complaint(left, left), HasSubstr("not a stereo pair"));
   const auto spoiled = [&](const std::string& from, const std::string& to) {
     std::string text = left;
     return complaint(text.replace(text.find(from), from.size(), to), right);
@@ -185,7 +186,7 @@ TEST(RosFiles, MistakesAreNamed) {
               HasSubstr("l.yaml: the left camera's distortion coefficients fold"));
   EXPECT_THAT(complaint(right, right), HasSubstr("l.yaml"));
   EXPECT_THAT(spoiled("[0.99998", "[0.5"), HasSubstr("l.yaml: the left camera's rotation is not one"));
-  EXPECT_THAT(spoiled("640", "320"), HasSubstr("their images differ in size"));
+  EXPECT_THAT(spoiled("640", "320"), HasSubstr("image sizes differ"));
   EXPECT_THAT(spoiled("321.75", "32175"), HasSubstr("0.0 % of the left rectified image"));
   EXPECT_THAT(file_error_of([&] { read_ros(directory / "none.yaml", directory / "r.yaml"); }),
               HasSubstr("no such file"));
@@ -213,7 +214,7 @@ cam1:
   resolution: [752, 480]
 )";
 
-TEST(KalibrFiles, AreReadAndRectified) {
+TEST(KalibrFiles, Import_Rectified) {
   const TemporaryDirectory directory;
   write_text_file(directory / "chain.yaml", kKalibr);
   const Calibration c = read_kalibr(directory / "chain.yaml");
@@ -226,7 +227,7 @@ TEST(KalibrFiles, AreReadAndRectified) {
   EXPECT_NEAR(pose.rotation(1, 2), 0.0140898358, 1e-8);
 }
 
-TEST(KalibrFiles, MistakesAreNamed) {
+TEST(KalibrFiles, Mistake_Named) {
   const TemporaryDirectory directory;
   const auto spoiled = [&](const std::string& from, const std::string& to) {
     std::string text = kKalibr;
@@ -235,12 +236,12 @@ TEST(KalibrFiles, MistakesAreNamed) {
   };
   EXPECT_THAT(spoiled("radtan", "fov"), HasSubstr("cam0.distortion_model: found 'fov'"));
   EXPECT_THAT(spoiled("pinhole", "omni"), HasSubstr("cam0.camera_model: found 'omni'"));
-  EXPECT_THAT(spoiled("T_cn_cnm1", "T_x"), HasSubstr("cam1.T_cn_cnm1: four rows of four numbers"));
-  EXPECT_THAT(spoiled("  - [0.99999", "  - [0.49999"), HasSubstr("no rotation"));
+  EXPECT_THAT(spoiled("T_cn_cnm1", "T_x"), HasSubstr("cam1.T_cn_cnm1: must be four rows of four numbers"));
+  EXPECT_THAT(spoiled("  - [0.99999", "  - [0.49999"), HasSubstr("not a rotation"));
   EXPECT_THAT(spoiled("-0.110073808127187", "0.110073808127187"), HasSubstr("left and right are swapped"));
   EXPECT_THAT(spoiled("0.000399121547014", ".nan"), HasSubstr("cam1.T_cn_cnm1: allowed are finite numbers"));
   EXPECT_THAT(spoiled("0.002312067192424", "-.inf"), HasSubstr("cam1.T_cn_cnm1: allowed are finite numbers"));
-  EXPECT_THAT(spoiled("0.0, 1.0]", "0.0, 2.0]"), HasSubstr("its last row must be 0, 0, 0, 1"));
+  EXPECT_THAT(spoiled("0.0, 1.0]", "0.0, 2.0]"), HasSubstr("the last row must be 0, 0, 0, 1"));
   EXPECT_THAT(spoiled("-0.110073808127187", "far"), HasSubstr("cam1.T_cn_cnm1"));
   EXPECT_THAT(spoiled("[752, 480]", "[640, 480]"), HasSubstr("different resolutions"));
   EXPECT_THAT(spoiled("cam1:", "cam2:"), HasSubstr("cam1: is missing"));
@@ -249,7 +250,7 @@ TEST(KalibrFiles, MistakesAreNamed) {
   EXPECT_THAT(spoiled("-0.28340811", "-28"), HasSubstr("the left camera's distortion coefficients fold"));
 }
 
-TEST(Exchange, RotationsOfFewDigitsAreMadeExactOthersStay) {
+TEST(ExactRotation, FewDigits_Repaired) {
   const Matrix3 exact = rotation_about({0.1, -0.2, 0.05});
   EXPECT_EQ(exact_rotation(exact), exact);
   Matrix3 rough = exact;
@@ -265,26 +266,5 @@ TEST(Exchange, RotationsOfFewDigitsAreMadeExactOthersStay) {
   EXPECT_EQ(exact_rotation(none), none);
 }
 
-TEST(LensBreakdown, IsTheShareThatIsFoldedOver) {
-  CameraModel camera{{640, 480}, 500, 500, 319.5, 239.5};
-  EXPECT_EQ(distortion_foldover(camera), 0);
-  camera.k1 = -0.3, camera.k2 = 0.1;
-  EXPECT_EQ(distortion_foldover(camera), 0);
-  // Folds where 1 + 3·k1·r² = 0, at r = 1/3, which is seen 2/9 from the center: 111 px.
-  camera.k1 = -3, camera.k2 = 0;
-  EXPECT_NEAR(distortion_foldover(camera), 1 - 3.14159 * 111.1 * 111.1 / (640 * 480), 0.02);
-  camera.k1 = -1e6;
-  EXPECT_GT(distortion_foldover(camera), 0.99);
-  camera.k1 = 1e300, camera.k3 = -1e300;
-  EXPECT_GT(distortion_foldover(camera), 0.9);
-
-  CameraModel fisheye{{640, 480}, 200, 200, 319.5, 239.5};
-  fisheye.lens = LensModel::kFisheye;
-  EXPECT_EQ(distortion_foldover(fisheye), 0);  // although its corners are beyond a right angle
-  // Folds where 1 + 3·k1·θ² = 0, at θ = 0.577, seen at 2/3 of that: 77 px.
-  fisheye.k1 = -1;
-  EXPECT_NEAR(distortion_foldover(fisheye), 1 - 3.14159 * 77 * 77 / (640 * 480), 0.02);
-}
-
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::calib

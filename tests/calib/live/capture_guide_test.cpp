@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/live/capture_guide.h"
 
 #include <gmock/gmock.h>
@@ -5,7 +6,7 @@
 
 #include "calib/live/live_state.h"
 
-namespace stereod {
+namespace stereod::calib {
 namespace {
 
 using testing::HasSubstr;
@@ -14,7 +15,7 @@ using testing::StartsWith;
 const Board kBoard{9, 6, 0.025};
 constexpr Size kImage{640, 480};
 
-// A board with its middle at (x, y) and this width, px; `lean` makes the left side so much taller.
+// Returns a board with its center at (x, y) and this width [px]. `lean` makes its left side taller by this share.
 Corners board_seen(double x, double y, double width, double lean = 0, double lean_down = 0) {
   Corners corners;
   for (int row = 0; row < 6; ++row) {
@@ -26,26 +27,26 @@ Corners board_seen(double x, double y, double width, double lean = 0, double lea
   return corners;
 }
 
-// Shows a board for `frames` frames; says whether it was taken.
+// Shows a board for `frames` frames. Returns whether it was taken.
 bool held(CaptureGuide& guide, const Corners& corners, int frames = 4) {
   bool taken = false;
   for (int i = 0; i < frames; ++i) taken = guide.observe(corners, corners).take || taken;
   return taken;
 }
 
-TEST(View, MeasuresPlaceSizeAndLean) {
-  const View view = view_of(kBoard, board_seen(319.5, 119.5, 320, 0.2, -0.1), kImage);
+TEST(BoardView, KnownBoard_PlaceSizeLean) {
+  const BoardView view = board_view(kBoard, board_seen(319.5, 119.5, 320, 0.2, -0.1), kImage);
   EXPECT_NEAR(view.x, 0.5, 0.01);
   EXPECT_NEAR(view.y, 0.25, 0.01);
   EXPECT_NEAR(view.size, std::sqrt(320.0 * 200 / (640 * 480)), 0.01);
   EXPECT_NEAR(view.lean_x, 0.2, 0.02);
   EXPECT_NEAR(view.lean_y, -0.1, 0.02);
   Corners turned = board_seen(319.5, 119.5, 320, 0.2, -0.1);
-  std::reverse(turned.begin(), turned.end());  // half a turn changes nothing of what it looks like
-  EXPECT_NEAR(view_of(kBoard, turned, kImage).lean_x, view.lean_x, 1e-12);
+  std::reverse(turned.begin(), turned.end());  // half a turn does not change the view
+  EXPECT_NEAR(board_view(kBoard, turned, kImage).lean_x, view.lean_x, 1e-12);
 }
 
-TEST(CaptureGuide, SaysWhoDoesNotSeeTheBoard) {
+TEST(CaptureGuide, BoardUnseen_NamesCamera) {
   CaptureGuide guide(kBoard, kImage, 15);
   const Corners seen = board_seen(320, 240, 200);
   EXPECT_THAT(guide.observe({}, {}).words, HasSubstr("both cameras"));
@@ -55,7 +56,7 @@ TEST(CaptureGuide, SaysWhoDoesNotSeeTheBoard) {
   EXPECT_TRUE(guide.observe({}, seen).right_seen);
 }
 
-TEST(CaptureGuide, TakesAPairOnlyWhenStillAndNew) {
+TEST(CaptureGuide, Take_OnlyStillAndNew) {
   CaptureGuide guide(kBoard, kImage, 15);
   for (int i = 0; i < 10; ++i) {  // moves 3 px from frame to frame
     const CaptureGuide::Instruction instruction =
@@ -70,13 +71,13 @@ TEST(CaptureGuide, TakesAPairOnlyWhenStillAndNew) {
   EXPECT_TRUE(held(guide, board_seen(420, 240, 200)));
   EXPECT_TRUE(held(guide, board_seen(420, 240, 200, 0.2)));
   EXPECT_EQ(guide.taken(), 3);
-  // Still in one camera is not still.
+  // Still in one camera only is not still.
   for (int i = 0; i < 10; ++i) {
     EXPECT_FALSE(guide.observe(board_seen(320, 100, 200), board_seen(250 + 3 * i, 100, 200)).take);
   }
 }
 
-TEST(CaptureGuide, AsksForWhatIsMissing) {
+TEST(CaptureGuide, MissingView_Requested) {
   CaptureGuide guide(kBoard, kImage, 15);
   const auto instruction = [&](const Corners& corners) {
     held(guide, corners);
@@ -88,20 +89,20 @@ TEST(CaptureGuide, AsksForWhatIsMissing) {
   EXPECT_THAT(instruction(board_seen(320, 240, 300, -0.3)), HasSubstr("its upper side towards"));
   EXPECT_THAT(instruction(board_seen(320, 240, 300, 0, 0.3)), HasSubstr("its lower side towards"));
   EXPECT_THAT(instruction(board_seen(320, 240, 300, 0, -0.3)), StartsWith("move the board to the "));
-  // What it asks for, it stops asking for.
+  // A satisfied request is not repeated.
   EXPECT_EQ(guide.left_coverage().empty_parts().front(), "the upper left");
   EXPECT_THAT(instruction(board_seen(110, 80, 160)), testing::Not(HasSubstr("the upper left")));
 }
 
-TEST(CaptureGuide, IsCompleteWithEnoughPairsAllOverTheImage) {
+TEST(CaptureGuide, Complete_NeedsPairsAndCoverage) {
   CaptureGuide guide(kBoard, kImage, 9);
   for (int i = 0; i < 9; ++i) {
     EXPECT_TRUE(held(guide, board_seen(120 + 200 * (i % 3), 90 + 150 * (i / 3), 190)));
-    EXPECT_EQ(guide.observe({}, {}).complete, false);  // only said with a pair in sight
+    EXPECT_EQ(guide.observe({}, {}).complete, false);  // reported only with the board in view
   }
   EXPECT_TRUE(guide.observe(board_seen(120, 90, 190), board_seen(120, 90, 190)).complete);
 
-  CaptureGuide corner(kBoard, kImage, 5);  // never leaves the middle
+  CaptureGuide corner(kBoard, kImage, 5);  // the board stays in the middle
   int taken = 0;
   for (int i = 0; i < 10; ++i) {
     EXPECT_FALSE(corner.observe(board_seen(320, 240, 100), board_seen(320, 240, 100)).complete);
@@ -111,7 +112,7 @@ TEST(CaptureGuide, IsCompleteWithEnoughPairsAllOverTheImage) {
   EXPECT_TRUE(corner.observe(board_seen(320, 240, 100), board_seen(320, 240, 100)).complete);
 }
 
-TEST(LiveState, SaysTheSameInALineAndAsJson) {
+TEST(LiveState, Snapshot_LineAndJson) {
   CaptureGuide guide(kBoard, kImage, 15);
   const Corners seen = board_seen(320, 240, 200);
   held(guide, seen);
@@ -127,4 +128,4 @@ TEST(LiveState, SaysTheSameInALineAndAsJson) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -6,7 +6,7 @@
 
 #include "calib/base/errors.h"
 
-namespace stereod {
+namespace stereod::calib {
 namespace {
 
 using testing::HasSubstr;
@@ -42,4 +42,4 @@ TEST(LivePage, SaysThatAPortIsTaken) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::calib

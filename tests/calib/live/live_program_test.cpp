@@ -1,4 +1,5 @@
-// stereo-calibrate with images that come one after the other: from cameras, and over LCM from the daemon.
+// SPDX-License-Identifier: BSD-3-Clause
+// stereo-calibrate as a process with live images: from cameras, and over LCM from the daemon.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,13 +19,13 @@
 #include "tests/support/recorded_pairs.h"
 #include "tests/support/run_program.h"
 
-namespace stereod {
+namespace stereod::calib {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-// Against the cameras that the scene really has.
+// Compares with the parameters of the synthetic scene.
 void expect_found(const Calibration& found, const Calibration& truth) {
   EXPECT_NEAR(found.left.camera.fx / truth.left.camera.fx, 1, 0.003);
   EXPECT_NEAR(found.left.camera.fy / truth.left.camera.fy, 1, 0.003);
@@ -33,8 +34,8 @@ void expect_found(const Calibration& found, const Calibration& truth) {
   EXPECT_NEAR(found.baseline_m / truth.baseline_m, 1, 0.003);
 }
 
-// The daemon's synthetic cameras see a board that moves, rests, moves on; no camera is needed to practise.
-TEST_F(Program, CaptureGuidesTakesAndSolves) {
+// The synthetic cameras see a board that moves and rests in turn.
+TEST_F(Program, Capture_GuidesAndSolves) {
   write_text_file(directory_ / "config.yaml",
                   "cameras:\n  source: synthetic\n  fps: 0\n  synthetic: {scene: board}\n");
   const ProgramRun result =
@@ -51,7 +52,7 @@ TEST_F(Program, CaptureGuidesTakesAndSolves) {
   EXPECT_TRUE(fs::exists(directory_ / "r.html"));
 }
 
-TEST_F(Program, CaptureWithoutABoardSaysSo) {
+TEST_F(Program, Capture_NoBoardRefused) {
   write_text_file(directory_ / "config.yaml",
                   "cameras:\n  source: replay\n  fps: 0\n  replay:\n    left: " + file("g.png") +
                       "\n    right: " + file("g.png") + "\n    loop: false\n");
@@ -63,9 +64,8 @@ TEST_F(Program, CaptureWithoutABoardSaysSo) {
   EXPECT_FALSE(fs::exists(directory_ / "c.yaml"));
 }
 
-// The same through the running daemon, which shows the board; stereo-calibrate takes its raw images over
-// LCM.
-TEST_F(Program, CaptureTakesTheRunningDaemonsPictures) {
+// The same with the raw images of a running daemon.
+TEST_F(Program, Capture_FromDaemon) {
   if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
   write_text_file(directory_ / "config.yaml",
                   "cameras:\n  source: synthetic\n  fps: 10\n  synthetic: {scene: board}\n"
@@ -81,15 +81,15 @@ TEST_F(Program, CaptureTakesTheRunningDaemonsPictures) {
   expect_found(read_calibration(file("c.yaml")), SyntheticScene().calibration());
 }
 
-// What the daemon plays, over LCM: with the board, then a scene without one; cameras as calibrated, then
-// knocked.
-TEST_F(Program, ChecksTheRunningDaemonsCameras) {
+// The daemon plays a recording with a board, then a scene without one; with the right calibration, then with a moved
+// camera.
+TEST_F(Program, Check_FromDaemon) {
   if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
   const StereoRigEstimate k = known_cameras(kImage);
   write_calibration(file("true.yaml"), rectified_pair(k.left, k.right, k.pose));
-  StereoPose knocked = k.pose;  // half a degree
-  knocked.rotation = rotation_about({0.009, 0, 0}) * knocked.rotation;
-  write_calibration(file("knocked.yaml"), rectified_pair(k.left, k.right, knocked));
+  StereoPose moved = k.pose;  // 0.5°
+  moved.rotation = rotation_about({0.009, 0, 0}) * moved.rotation;
+  write_calibration(file("moved.yaml"), rectified_pair(k.left, k.right, moved));
   fs::create_directory(directory_ / "boards");
   for (std::size_t pose = 0; pose < 16; ++pose) {
     fs::create_symlink(left(pose), directory_ / ("boards/left_" + std::to_string(pose) + ".png"));
@@ -98,12 +98,12 @@ TEST_F(Program, ChecksTheRunningDaemonsCameras) {
   write_recorded_pairs(directory_.path(), kImage, 6);  // a scene, and the calibration.yaml of its cameras
   Calibration scene = read_calibration(file("calibration.yaml"));
   scene.right.rotation = rotation_about({0.012, 0, 0}) * scene.right.rotation;
-  write_calibration(file("scene_knocked.yaml"), scene);
+  write_calibration(file("scene_moved.yaml"), scene);
   fs::create_directory(directory_ / "scene");
   for (int i = 0; i < 6; ++i) {
-    for (const fs::path& picture :
+    for (const fs::path& image :
          {recorded_left(directory_.path(), i), recorded_right(directory_.path(), i)}) {
-      fs::rename(picture, directory_ / "scene" / picture.filename());
+      fs::rename(image, directory_ / "scene" / image.filename());
     }
   }
 
@@ -115,9 +115,9 @@ TEST_F(Program, ChecksTheRunningDaemonsCameras) {
   };
   const Case cases[] = {
       {"boards", "true.yaml", {"--square", "25mm"}, 0, "verdict: good"},
-      {"boards", "knocked.yaml", {"--board", "9x6"}, 1, "verdict: calibrate again"},
+      {"boards", "moved.yaml", {"--board", "9x6"}, 1, "verdict: calibrate again"},
       {"scene", "calibration.yaml", {"--board", "none"}, 0, "verdict: good"},
-      {"scene", "scene_knocked.yaml", {}, 1, "verdict: calibrate again"},
+      {"scene", "scene_moved.yaml", {}, 1, "verdict: calibrate again"},
   };
   for (const Case& each : cases) {
     const std::string config = file(std::string(each.play) + ".yaml");
@@ -134,12 +134,12 @@ TEST_F(Program, ChecksTheRunningDaemonsCameras) {
     EXPECT_EQ(daemon.wait().status, 0);
     EXPECT_EQ(result.status, each.status) << each.calibration << '\n' << result.out << result.err;
     EXPECT_THAT(result.out, HasSubstr(each.words));
-    EXPECT_THAT(result.out, HasSubstr("row error: "));
-    EXPECT_THAT(result.out, HasSubstr("what it means for depth"));
+    EXPECT_THAT(result.out, HasSubstr("epipolar error: "));
+    EXPECT_THAT(result.out, HasSubstr("expected depth error"));
   }
 }
 
-TEST_F(Program, ChecksTheCamerasOfAConfiguration) {
+TEST_F(Program, Check_FromConfig) {
   write_recorded_pairs(directory_.path(), kImage, 3);
   write_text_file(directory_ / "config.yaml",
                   "cameras:\n  source: replay\n  fps: 0\n  replay:\n    directory: .\n    loop: false\n");
@@ -151,4 +151,4 @@ TEST_F(Program, ChecksTheCamerasOfAConfiguration) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::calib

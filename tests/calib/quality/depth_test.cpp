@@ -1,4 +1,5 @@
-// From rendered boards to depth: is it as exact as the report says?
+// SPDX-License-Identifier: BSD-3-Clause
+// Compares the depth of the daemon with the error that the report predicts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "calib/report/report.h"
+#include "calib/quality/assessment.h"
+#include "calib/report/summary.h"
 #include "calib/solve/solve.h"
 #include "core/geometry/depth.h"
 #include "daemon/base/file.h"
@@ -22,10 +24,10 @@
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_directory.h"
 
-namespace stereod {
+namespace stereod::calib {
 namespace {
 
-// What is known of a scene, seen from the left camera of a calibration that was found.
+// The true depth of a scene, seen from the left camera of the calibration found.
 class Truth {
  public:
   Truth(const SyntheticScene& scene, const Calibration& found, int frame)
@@ -34,7 +36,7 @@ class Truth {
         disparity_(scene.ground_truth(frame)),
         visible_(scene.visible_in_right(frame)) {}
 
-  // The depth at pixel (x, y) of the found rectified left image; NaN where it is not known.
+  // Returns the depth at pixel (x, y) of the rectified left image; NaN where it is unknown.
   double depth_at(int x, int y) const {
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     const auto source = source_point(found_.left, {static_cast<double>(x), static_cast<double>(y)});
@@ -44,7 +46,7 @@ class Truth {
     if (column < 1 || row < 1 || column + 1 >= disparity_.width() || row + 1 >= disparity_.height()) {
       return kUnknown;
     }
-    // Not at the edges of things: there a window sees both.
+    // Unknown at depth edges, where a matching window covers both sides.
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
         const float near = disparity_.at(column + dx, row + dy);
@@ -67,9 +69,9 @@ class Truth {
   Image<std::uint8_t> visible_;
 };
 
-// One frame as the running daemon publishes it.
+// Returns one frame published by a running daemon.
 StereoFrame published_frame(const Calibration& calibration, const TemporaryDirectory& directory) {
-  constexpr const char* kUrl = "udpm://239.255.76.67:17668?ttl=0";  // a port of this test's own
+  constexpr const char* kUrl = "udpm://239.255.76.67:17668?ttl=0";  // a port used by this test only
   write_calibration(directory / "found.yaml", calibration);
   write_text_file(directory / "config.yaml",
                   "cameras: {source: synthetic, fps: 5}\ncalibration: found.yaml\n"
@@ -95,17 +97,16 @@ StereoFrame published_frame(const Calibration& calibration, const TemporaryDirec
   return std::move(*whole);
 }
 
-TEST(Depth, OfTheDaemonIsAsExactAsTheReportPredicts) {
+TEST(Depth, FromDaemon_WithinPrediction) {
   if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
   const SyntheticScene scene;
   const Calibration& exact = scene.calibration();
   const StereoRigEstimate cameras{exact.left.camera, exact.right.camera, stereo_pose(exact)};
   const Board board{9, 6, 0.025};
   const BoardScene boards(cameras, board);
-  std::vector<ImagePair> pictures;
-  for (const BoardPose& pose : varied_poses(board, 20))
-    pictures.push_back(boards.render(pose, pictures.size()));
-  const SolveResult result = solve(pictures, {board, board.square_m, LensChoice::kPinhole});
+  std::vector<ImagePair> images;
+  for (const BoardPose& pose : varied_poses(board, 20)) images.push_back(boards.render(pose, images.size()));
+  const SolveResult result = solve(images, {board, board.square_m, LensChoice::kPinhole});
   const Calibration& found = result.calibration;
   const Assessment assessment = assess(result);
   ASSERT_EQ(assessment.verdict.grade, Grade::kGood) << summary_text(result, assessment);
@@ -140,9 +141,9 @@ TEST(Depth, OfTheDaemonIsAsExactAsTheReportPredicts) {
     points += range.parts.size();
     if (range.parts.size() < 500) continue;
     std::sort(range.parts.begin(), range.parts.end());
-    // One standard deviation: two thirds of the points are nearer.
+    // 68 % of the points lie within one standard deviation.
     const double two_thirds = range.parts[range.parts.size() * 68 / 100];
-    std::printf("%.1f m to %.1f m: off by %.2f of what is predicted (%zu points)\n", range.nearest,
+    std::printf("%.1f m to %.1f m: error %.2f of the prediction (%zu points)\n", range.nearest,
                 range.farthest, two_thirds, range.parts.size());
     EXPECT_LE(two_thirds, 1) << range.nearest << " m to " << range.farthest << " m, " << range.parts.size()
                              << " points";
@@ -151,4 +152,4 @@ TEST(Depth, OfTheDaemonIsAsExactAsTheReportPredicts) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::calib

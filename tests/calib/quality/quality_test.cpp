@@ -1,27 +1,23 @@
-// What is made of a calibration's numbers: coverage, depth error, verdict, consensus.
+// SPDX-License-Identifier: BSD-3-Clause
+// Coverage, depth error, distortion foldover and verdict.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "calib/quality/coverage.h"
 #include "calib/quality/depth_error.h"
-#include "calib/quality/edge_width.h"
+#include "calib/quality/distortion_foldover.h"
 #include "calib/quality/verdict.h"
-#include "calib/report/html.h"
-#include "calib/solve/pair_consensus.h"
 #include "core/geometry/depth.h"
-#include "daemon/base/progress.h"
-#include "tests/support/board_scene.h"
 
-namespace stereod {
+namespace stereod::calib {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(Coverage, CountsCellsAndNamesWhatIsEmpty) {
+TEST(Coverage, Cells_CountedAndNamed) {
   Coverage coverage({640, 480});
   EXPECT_EQ(coverage.share(), 0);
   EXPECT_EQ(coverage.empty_parts().size(), 9U);
@@ -48,13 +44,13 @@ Calibration simple() {
   return c;
 }
 
-TEST(DepthError, GrowsWithTheSquareOfDepth) {
+TEST(DepthError, Depth_GrowsQuadratically) {
   const Calibration c = simple();
   const DepthErrorSources third{0.3, 0};
   // 0.3 px at 2 m: 4/50·0.3.
   EXPECT_NEAR(expected_depth_error_m(c, third, 2), 0.024, 1e-12);
   EXPECT_NEAR(expected_depth_error_m(c, third, 4), 0.096, 1e-12);
-  // It is what depth really changes by for such a change of disparity.
+  // Equals the change of depth for this change of disparity.
   EXPECT_NEAR(depth_m(c, disparity_at(c, 2) - 0.3) - 2, 0.024, 0.001);
   EXPECT_NEAR(expected_depth_error_m(c, {0.3, 0.05}, 2), std::hypot(0.024, 0.1), 1e-12);
 }
@@ -66,197 +62,64 @@ QualityStats fine() {
   return f;
 }
 
-TEST(Verdict, IsGoodWhenEverythingIs) {
-  const Verdict verdict = judge(fine());
+TEST(Verdict, AllGood_Good) {
+  const Verdict verdict = evaluate(fine());
   EXPECT_EQ(verdict.grade, Grade::kGood);
-  EXPECT_THAT(verdict.reasons, ElementsAre(HasSubstr("within 0.10 px")));
+  EXPECT_THAT(verdict.reasons, ElementsAre(HasSubstr("Epipolar error 0.10 px")));
 }
 
-TEST(Verdict, SaysWhatIsWrong) {
+TEST(Verdict, OneProblem_Named) {
   struct Case {
     void (*spoil)(QualityStats&);
     Grade grade;
     const char* word;
   };
   const Case cases[] = {
-      {[](QualityStats& f) { f.epipolar_error_px = 0.3; }, Grade::kUsable, "0.30 px apart"},
-      {[](QualityStats& f) { f.epipolar_error_px = 0.6; }, Grade::kDoAgain, "0.60 px apart"},
-      {[](QualityStats& f) { f.epipolar_error_px = std::nan(""); }, Grade::kDoAgain, "px apart"},
-      {[](QualityStats& f) { f.max_epipolar_error_px = 1.2; }, Grade::kUsable, "1.20 px off"},
-      {[](QualityStats& f) { f.rms_px = 0.7; }, Grade::kUsable, "0.70 px from where"},
+      {[](QualityStats& f) { f.epipolar_error_px = 0.3; }, Grade::kUsable, "Epipolar error 0.30 px"},
+      {[](QualityStats& f) { f.epipolar_error_px = 0.6; }, Grade::kDoAgain, "Epipolar error 0.60 px"},
+      {[](QualityStats& f) { f.epipolar_error_px = std::nan(""); }, Grade::kDoAgain, "Epipolar error "},
+      {[](QualityStats& f) { f.max_epipolar_error_px = 1.2; }, Grade::kUsable, "1.20 px on the worst"},
+      {[](QualityStats& f) { f.rms_px = 0.7; }, Grade::kUsable, "Reprojection error 0.70 px"},
       {[](QualityStats& f) { f.rms_px = 2; }, Grade::kDoAgain, "flat and stiff"},
       {[](QualityStats& f) {
          f.right_coverage = 0.5, f.empty_parts = {"the top", "the middle"};
        },
-       Grade::kUsable, "only 50 % of the right image, not in the top and the middle"},
+       Grade::kUsable, "only 50 % of the right image, too little of the top and the middle"},
       {[](QualityStats& f) { f.left_coverage = 0.2; }, Grade::kDoAgain, "only 20 % of the left"},
-      {[](QualityStats& f) { f.breakdown = 0.01; }, Grade::kUsable, "breaks down in 1.0 %"},
-      {[](QualityStats& f) { f.breakdown = 0.1; }, Grade::kDoAgain, "breaks down in 10.0 %"},
+      {[](QualityStats& f) { f.foldover = 0.01; }, Grade::kUsable, "folds over in 1.0 %"},
+      {[](QualityStats& f) { f.foldover = 0.1; }, Grade::kDoAgain, "folds over in 10.0 %"},
       {[](QualityStats& f) { f.pairs_used = 5; }, Grade::kUsable, "Only 5 pairs"},
-      {[](QualityStats& f) { f.pairs_left_out = 9; }, Grade::kDoAgain, "9 pairs do not agree"},
+      {[](QualityStats& f) { f.outliers = 9; }, Grade::kDoAgain, "9 pairs are outliers"},
   };
   for (const Case& each : cases) {
-    QualityStats figures = fine();
-    each.spoil(figures);
-    const Verdict verdict = judge(figures);
+    QualityStats stats = fine();
+    each.spoil(stats);
+    const Verdict verdict = evaluate(stats);
     EXPECT_EQ(verdict.grade, each.grade) << each.word;
     EXPECT_THAT(verdict.reasons, ElementsAre(HasSubstr(each.word)));
   }
 }
 
-// A third of the boards moved between the two images; each other pair is exact.
-TEST(PairConsensus, FindsThePairsThatAgree) {
-  const Board board{9, 6, 0.025};
-  const StereoRigEstimate cameras = known_cameras({640, 480});
-  std::vector<PosedPair> pairs;
-  const auto poses = varied_poses(board, 12);
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const BoardPose& right_sees = i % 3 == 1 ? poses[(i + 5) % poses.size()] : poses[i];
-    PosedPair pair{{}, poses[i], seen_from_right(cameras.pose, right_sees)};
-    for (std::size_t c = 0; c < board.corner_count(); ++c) {
-      const auto project = [&](const CameraModel& camera, const BoardPose& pose) {
-        const Vector3 p = pose.rotation * board_point(board, c);
-        const double z = p.z + pose.translation_m.z;
-        return camera.to_pixel(
-            camera.distort({(p.x + pose.translation_m.x) / z, (p.y + pose.translation_m.y) / z}));
-      };
-      pair.corners.left.push_back(project(cameras.left, pair.in_left));
-      pair.corners.right.push_back(project(cameras.right, pair.in_right));
-    }
-    pairs.push_back(pair);
-  }
-  const std::vector<double> errors = disagreement_px({cameras.left, cameras.right, {}}, board, pairs);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (i % 3 == 1) {
-      EXPECT_GT(errors[i], 5) << i;
-    } else {
-      EXPECT_LT(errors[i], 1e-6) << i;
-    }
-  }
-}
+TEST(DistortionFoldover, KnownLens_Share) {
+  CameraModel camera{{640, 480}, 500, 500, 319.5, 239.5};
+  EXPECT_EQ(distortion_foldover(camera), 0);
+  camera.k1 = -0.3, camera.k2 = 0.1;
+  EXPECT_EQ(distortion_foldover(camera), 0);
+  // Folds over where 1 + 3·k1·r² = 0, at r = 1/3, which maps to 2/9 from the center: 111 px.
+  camera.k1 = -3, camera.k2 = 0;
+  EXPECT_NEAR(distortion_foldover(camera), 1 - 3.14159 * 111.1 * 111.1 / (640 * 480), 0.02);
+  camera.k1 = -1e6;
+  EXPECT_GT(distortion_foldover(camera), 0.99);
+  camera.k1 = 1e300, camera.k3 = -1e300;
+  EXPECT_GT(distortion_foldover(camera), 0.9);
 
-TEST(PairGeometry, TheFittedPoseIsTheTrueOne) {
-  const Board board{9, 6, 0.025};
-  const StereoRigEstimate cameras = known_cameras({640, 480});
-  const BoardPose truth = board_at(board, {0.05, -0.03, 0.6}, {0.4, -0.3, 0.2});
-  BoardPair pair;
-  for (std::size_t c = 0; c < board.corner_count(); ++c) {
-    const auto project = [&](const CameraModel& camera, const BoardPose& pose) {
-      const Vector3 p = pose.rotation * board_point(board, c);
-      const double z = p.z + pose.translation_m.z;
-      return camera.to_pixel(
-          camera.distort({(p.x + pose.translation_m.x) / z, (p.y + pose.translation_m.y) / z}));
-    };
-    pair.left.push_back(project(cameras.left, truth));
-    pair.right.push_back(project(cameras.right, seen_from_right(cameras.pose, truth)));
-  }
-  BoardPose guess = truth;
-  guess.translation_m = {0.1, 0.02, 0.5};
-  guess.rotation = rotation_about({0.1, 0.1, 0}) * guess.rotation;
-  const BoardPose found = fitted_pose(cameras, board, pair, guess);
-  EXPECT_NEAR(pair_error_px(cameras, board, pair, found), 0, 1e-6);
-  EXPECT_NEAR(found.translation_m.z, truth.translation_m.z, 1e-7);
-
-  const Calibration c = rectified_pair(cameras.left, cameras.right, cameras.pose);
-  const PairCheck exact = check_pair(c, board, pair, found);
-  EXPECT_NEAR(exact.epipolar_error_px, 0, 1e-6);
-  EXPECT_NEAR(exact.disparity_error_px, 0, 1e-5);
-  EXPECT_NEAR(exact.scale_error, 0, 1e-8);
-  Calibration longer = c;
-  longer.baseline_m *= 1.02;
-  EXPECT_NEAR(check_pair(longer, board, pair, found).scale_error, 0.02, 1e-6);
-  for (Point2& p : pair.right) p.y += 0.4;
-  EXPECT_NEAR(check_pair(c, board, pair, found).epipolar_error_px, 0.4, 0.05);
-}
-
-TEST(PairConsensus, HoldsBackAFifthEvenlySpread) {
-  EXPECT_THAT(evenly_spread(3, 13), ElementsAre(2U, 6U, 10U));
-  EXPECT_THAT(evenly_spread(1, 5), ElementsAre(2U));
-  EXPECT_EQ(median({3, 1, 2}), 2);
-}
-
-TEST(EdgeWidth, GrowsWithBlurInEitherDirection) {
-  const Board board{9, 6, 0.025};
-  const StereoRigEstimate cameras = known_cameras({640, 480});
-  const BoardPose pose = board_at(board, {0, 0, 0.4}, {0.1, 0.1, 0.3});
-  const ImagePair pair = BoardScene(cameras, board).render(pose, 1);
-  Corners corners;
-  for (std::size_t c = 0; c < board.corner_count(); ++c) {
-    const Vector3 p = pose.rotation * board_point(board, c);
-    const double z = p.z + pose.translation_m.z;
-    corners.push_back(cameras.left.to_pixel(
-        cameras.left.distort({(p.x + pose.translation_m.x) / z, (p.y + pose.translation_m.y) / z})));
-  }
-  const double sharp = edge_width_px(pair.left.view(), board, corners);
-  EXPECT_NEAR(sharp, 1.8, 0.4);  // a ramp of two pixels, less a tenth at each end, and the interpolation
-  for (const bool across : {true, false}) {
-    GrayImage blurred = copy_of(pair.left);
-    for (int y = 4; y + 4 < blurred.height(); ++y) {
-      for (int x = 4; x + 4 < blurred.width(); ++x) {
-        int sum = 0;
-        for (int d = -4; d <= 4; ++d) sum += across ? pair.left.at(x + d, y) : pair.left.at(x, y + d);
-        blurred.at(x, y) = static_cast<std::uint8_t>(sum / 9);
-      }
-    }
-    EXPECT_GT(edge_width_px(blurred.view(), board, corners), 6) << across;
-  }
-  EXPECT_GT(edge_width_px(GrayImage(640, 480).view(), board, corners), 20);  // no edge at all
-}
-
-TEST(EdgeWidth, MayBeWiderWhereTheSameAngleHasMorePixels) {
-  EXPECT_NEAR(blur_limit_px({320, 240}), 3.7, 0.05);
-  EXPECT_NEAR(blur_limit_px({640, 480}), 6.0, 0.05);
-  EXPECT_NEAR(blur_limit_px({1280, 720}), 11.2, 0.05);
-  EXPECT_NEAR(blur_limit_px({1920, 1080}), 16.5, 0.05);
-  EXPECT_EQ(blur_limit_px({480, 640}), blur_limit_px({640, 480}));
-  EXPECT_GT(blur_limit_px({64, 48}), 2.5);  // what is sharp stays so in the smallest image
-
-  // One lens out of focus by one angle, seen with more and more pixels: refused with all of them or with
-  // none.
-  const Board board{9, 6, 0.025};
-  const BoardPose pose = board_at(board, {0, 0, 0.4}, {0.1, 0.1, 0.3});
-  for (const int width : {320, 1280}) {
-    const StereoRigEstimate cameras = known_cameras({width, width * 3 / 4});
-    const ImagePair pair = BoardScene(cameras, board).render(pose, 1);
-    Corners corners;
-    for (std::size_t c = 0; c < board.corner_count(); ++c) {
-      const Vector3 p = pose.rotation * board_point(board, c);
-      const double z = p.z + pose.translation_m.z;
-      corners.push_back(cameras.left.to_pixel(
-          cameras.left.distort({(p.x + pose.translation_m.x) / z, (p.y + pose.translation_m.y) / z})));
-    }
-    for (const double angle : {0.004, 0.016}) {  // half of the blur's width, of the image's
-      const int reach = static_cast<int>(std::lround(angle * width / 2));
-      GrayImage blurred = copy_of(pair.left);
-      for (int y = 0; y < blurred.height(); ++y) {
-        for (int x = reach; x + reach < width; ++x) {
-          int sum = 0;
-          for (int d = -reach; d <= reach; ++d) sum += pair.left.at(x + d, y);
-          blurred.at(x, y) = static_cast<std::uint8_t>(sum / (2 * reach + 1));
-        }
-      }
-      const bool refused = edge_width_px(blurred.view(), board, corners) > blur_limit_px(blurred.size());
-      EXPECT_EQ(refused, angle > 0.01) << width << ' ' << angle;
-    }
-  }
-}
-
-TEST(Words, AreSafeAndReadable) {
-  EXPECT_EQ(escaped("<a href=\"x\">&"), "&lt;a href=&quot;x&quot;&gt;&amp;");
-  EXPECT_EQ(length_in_words(0.0034), "3.4 mm");
-  EXPECT_EQ(length_in_words(0.042), "4.2 cm");
-  EXPECT_EQ(length_in_words(0.42), "42 cm");
-  EXPECT_EQ(length_in_words(1.34), "1.3 m");
-  EXPECT_EQ(length_in_words(std::numeric_limits<double>::infinity()), "unknown");
-  const auto encoded = [](const std::string& text) {
-    return base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  };
-  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");  // RFC 4648
-  EXPECT_EQ(encoded("fooba"), "Zm9vYmE=");
-  EXPECT_EQ(encoded("foob"), "Zm9vYg==");
-  EXPECT_EQ(progress_bar(1, 4, 8), "[##......]");
-  EXPECT_EQ(progress_bar(0, 0, 3), "[###]");
+  CameraModel fisheye{{640, 480}, 200, 200, 319.5, 239.5};
+  fisheye.lens = LensModel::kFisheye;
+  EXPECT_EQ(distortion_foldover(fisheye), 0);  // although its corners are beyond 90°
+  // Folds over where 1 + 3·k1·θ² = 0, at θ = 0.577, which maps to 2/3 of that: 77 px.
+  fisheye.k1 = -1;
+  EXPECT_NEAR(distortion_foldover(fisheye), 1 - 3.14159 * 77 * 77 / (640 * 480), 0.02);
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::calib

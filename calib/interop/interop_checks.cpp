@@ -1,33 +1,36 @@
-#include "calib/interop/interop.h"
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calib/interop/interop_checks.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "calib/quality/distortion_foldover.h"
 #include "calib/quality/verdict.h"
 #include "daemon/base/file_error.h"
-#include "daemon/base/text.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// How far m·mᵀ is from the identity, at most.
-double deviation(const Matrix3& m) {
+// Returns the largest difference between m·mᵀ and the identity.
+double orthonormality_error(const Matrix3& m) {
   const Matrix3 product = m * transposed(m);
-  double worst = 0;
-  for (std::size_t i = 0; i < 9; ++i) worst = std::max(worst, std::abs(product.m[i] - Matrix3{}.m[i]));
-  return worst;
+  double max_error = 0;
+  for (std::size_t i = 0; i < 9; ++i)
+    max_error = std::max(max_error, std::abs(product.m[i] - Matrix3{}.m[i]));
+  return max_error;
 }
 
 }  // namespace
 
 Matrix3 exact_rotation(const Matrix3& m) {
   constexpr double kRepairable = 2e-3;
-  if (is_rotation(m) || !(deviation(m) < kRepairable)) return m;
+  if (is_rotation(m) || !(orthonormality_error(m) < kRepairable)) return m;
   Matrix3 r = m;
   // Newton's iteration for the orthogonal polar factor, R ← R·(3·I − Rᵀ·R)/2.
   for (int round = 0; round < 4; ++round) {
@@ -38,7 +41,8 @@ Matrix3 exact_rotation(const Matrix3& m) {
   return r;
 }
 
-void refuse_absurd(const CameraModel& camera, const std::string& name, const std::filesystem::path& file) {
+void require_plausible(const CameraModel& camera, const std::string& name,
+                       const std::filesystem::path& file) {
   if (const auto problem = problem_with_camera(name, camera))
     throw FileError(file.string() + ": " + *problem);
   const double share = distortion_foldover(camera);
@@ -46,24 +50,30 @@ void refuse_absurd(const CameraModel& camera, const std::string& name, const std
   throw FileError(
       file.string() + ": the " + name + " camera's distortion coefficients fold " +
       std::to_string(std::lround(100 * share)) +
-      " % of the image over itself, which no lens does; are they of this lens model, and in order?");
+      " % of the image over itself, which no lens does; check that they belong to this lens model and their order");
 }
 
 bool is_camera_matrix(const std::vector<double>& k) {
   return k[1] == 0 && k[3] == 0 && k[6] == 0 && k[7] == 0 && k[8] == 1;
 }
 
+std::string shortest_decimal(double number) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+
 double right_shift(const Calibration& c) {
   const double fx = c.right.projection.fx, product = -fx * c.baseline_m;
-  // Rounding of the quotient and of the product: two steps at most.
-  double before = std::nextafter(std::nextafter(product, -kInfinity), -kInfinity), best = product;
-  for (int step = 0; step < 5; ++step, before = std::nextafter(before, kInfinity)) {
-    if (-before / fx == c.baseline_m && exact(before).size() < exact(best).size()) best = before;
+  // Rounding of the quotient and of the product changes the value by at most two steps.
+  double candidate = std::nextafter(std::nextafter(product, -kInfinity), -kInfinity), best = product;
+  for (int step = 0; step < 5; ++step, candidate = std::nextafter(candidate, kInfinity)) {
+    if (-candidate / fx == c.baseline_m && shortest_decimal(candidate).size() < shortest_decimal(best).size())
+      best = candidate;
   }
   return best;
 }
 
-Calibration sound_or_refused(Calibration calibration, const std::filesystem::path& file) {
+Calibration validated(Calibration calibration, const std::filesystem::path& file) {
   auto problem = problem_with(calibration);
   if (!problem) problem = problem_with_view(calibration);
   if (problem) throw FileError(file.string() + ": " + *problem);
@@ -71,4 +81,4 @@ Calibration sound_or_refused(Calibration calibration, const std::filesystem::pat
   return calibration;
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,10 +1,11 @@
-#include "calib/report/html.h"
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calib/base/text.h"
 
 #include <cmath>
 
-namespace stereod {
+namespace stereod::calib {
 
-std::string escaped(std::string_view text) {
+std::string escape_html(std::string_view text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
@@ -27,7 +28,7 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-std::string length_in_words(double meters) {
+std::string format_length(double meters) {
   if (!std::isfinite(meters)) return "unknown";
   if (meters < 0.00995) return fixed(1000 * meters, meters < 0.000995 ? 2 : 1) + " mm";
   if (meters < 0.995) return fixed(100 * meters, meters < 0.0995 ? 1 : 0) + " cm";
@@ -50,4 +51,4 @@ std::string base64(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib

@@ -1,4 +1,5 @@
-#include "calib/quality/matched_boards.h"
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calib/solve/matched_boards.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,33 +10,33 @@
 #include "core/rectify/rectify_map.h"
 #include "daemon/config/config.h"
 
-namespace stereod {
+namespace stereod::calib {
 
 namespace {
 
-struct Rectified {
-  GrayImage picture;
+struct RectifiedImage {
+  GrayImage image;
   ValidityMask mask;
 };
 
-Rectified rectified(const CameraCalibration& camera, const GrayImage& picture) {
-  const RectifyMap map(camera, {picture.size(), picture.view().stride(), 1}, RectifyConfig{}.interpolation);
-  Rectified result{GrayImage(picture.size()), map.mask()};
-  map.gray_rows(picture.row(0), {0, picture.height()}, result.picture.view());
+RectifiedImage rectified(const CameraCalibration& camera, const GrayImage& image) {
+  const RectifyMap map(camera, {image.size(), image.view().stride(), 1}, RectifyConfig{}.interpolation);
+  RectifiedImage result{GrayImage(image.size()), map.mask()};
+  map.gray_rows(image.row(0), {0, image.height()}, result.image.view());
   return result;
 }
 
-// A board as the rectified left camera sees it.
-class SeenBoard {
+// A board in the rectified left image.
+class RectifiedBoard {
  public:
-  SeenBoard(const Calibration& calibration, const Board& board, const BoardPose& in_left)
+  RectifiedBoard(const Calibration& calibration, const Board& board, const BoardPose& in_left)
       : calibration_(calibration),
         board_(board),
         rotation_(calibration.left.rotation * in_left.rotation),
         origin_(calibration.left.rotation * in_left.translation_m),
         normal_(rotation_ * Vector3{0, 0, 1}) {}
 
-  // The disparity of pixel (x, y), if it shows the board between its inner corners.
+  // Returns the disparity of pixel (x, y) if it shows the board within its outermost inner corners.
   std::optional<double> disparity_at(double x, double y) const {
     const RectifiedProjection& p = calibration_.left.projection;
     const Vector3 ray{(x - p.cx) / p.fx, (y - p.cy) / p.fy, 1};
@@ -61,30 +62,32 @@ class SeenBoard {
 }  // namespace
 
 void MatchedBoards::add(const Calibration& calibration, const ImagePair& pair, const BoardPose& in_left) {
-  const SeenBoard seen(calibration, board_, in_left);
+  const RectifiedBoard rectified_board(calibration, board_, in_left);
   const Size size = calibration.image;
   Image<float> truth(size);
-  double nearest = 0, farthest = 1e9;
+  double max_disparity = 0, min_disparity = 1e9;
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
-      const auto disparity = seen.disparity_at(x, y);
+      const auto disparity = rectified_board.disparity_at(x, y);
       truth.at(x, y) = static_cast<float>(disparity.value_or(-1));
-      if (disparity) nearest = std::max(nearest, *disparity), farthest = std::min(farthest, *disparity);
+      if (!disparity) continue;
+      max_disparity = std::max(max_disparity, *disparity);
+      min_disparity = std::min(min_disparity, *disparity);
     }
   }
-  if (nearest < farthest) return;  // seen in no pixel
-  // Room on both sides, so that a wrong disparity can be a wrong one.
-  constexpr int kRoom = 16;
+  if (max_disparity < min_disparity) return;  // no pixel shows the board
+  // Disparities searched beyond those of the board, so that the matcher can be wrong.
+  constexpr int kMargin = 16;
   MatcherOptions options = Config{}.matcher;
-  options.min_disparity = std::clamp(static_cast<int>(farthest) - kRoom, 0, 1024);
-  options.disparities = std::clamp(static_cast<int>(nearest) + kRoom - options.min_disparity, 1, 256);
+  options.min_disparity = std::clamp(static_cast<int>(min_disparity) - kMargin, 0, 1024);
+  options.disparities = std::clamp(static_cast<int>(max_disparity) + kMargin - options.min_disparity, 1, 256);
   WorkerPool pool(1);
   FrameMatcher matcher(options, size, pool);
-  const Rectified left = rectified(calibration.left, pair.left),
-                  right = rectified(calibration.right, pair.right);
+  const RectifiedImage left = rectified(calibration.left, pair.left),
+                       right = rectified(calibration.right, pair.right);
   matcher.use_masks(&left.mask, &right.mask);
   DisparityImage found(size);
-  matcher.match(left.picture.view(), right.picture.view(), found.view());
+  matcher.match(left.image.view(), right.image.view(), found.view());
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       if (truth.at(x, y) < 0 || found.at(x, y) == kInvalidDisparity) continue;
@@ -102,4 +105,4 @@ double MatchedBoards::deviation_px() const {
   return static_cast<double>(*place);
 }
 
-}  // namespace stereod
+}  // namespace stereod::calib
