@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/base/validity_mask.h"
 #include "core/match/disparity.h"
 #include "core/match/options.h"
-#include "core/rectify/validity_mask.h"
 
 namespace stereod {
 

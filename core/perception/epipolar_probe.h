@@ -6,9 +6,9 @@
 
 #include "core/base/aligned_buffer.h"
 #include "core/base/image.h"
+#include "core/base/validity_mask.h"
 #include "core/perception/epipolar_error.h"
 #include "core/rectify/rectify_map.h"
-#include "core/rectify/validity_mask.h"
 
 namespace stereod {
 

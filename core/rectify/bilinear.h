@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/match/options.h"
+#include "core/base/cpu.h"
 
 namespace stereod {
 

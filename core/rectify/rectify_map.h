@@ -8,11 +8,11 @@
 
 #include "core/base/aligned_buffer.h"
 #include "core/base/image.h"
+#include "core/base/validity_mask.h"
 #include "core/base/worker_pool.h"
 #include "core/geometry/calibration.h"
 #include "core/rectify/bilinear.h"
 #include "core/rectify/run_table.h"
-#include "core/rectify/validity_mask.h"
 
 namespace stereod {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/validity_mask.h"
 #include "core/match/options.h"
-#include "core/rectify/validity_mask.h"
 #include "tests/support/random_images.h"
 
 namespace stereod {

@@ -3,7 +3,7 @@
 
 #include "core/match/disparity.h"
 #include "core/match/options.h"
-#include "core/rectify/validity_mask.h"
+#include "core/base/validity_mask.h"
 
 namespace stereod {
 
