@@ -146,9 +146,8 @@ TEST(SemiglobalAgreement, EveryKernelGivesWhatTheDefinitionGives) {
   for (std::uint64_t seed = first_seed; seed < first_seed + cases && failures < kFailuresShown; ++seed) {
     const Case c = random_case(seed);
     ASSERT_EQ(problem_with(c.options), std::nullopt);
-    const DisparityImage unfiltered =
-        semiglobal_by_definition(c.pair.left.view(), c.pair.right.view(), c.options, pointer_to(c.left_mask),
-                                 pointer_to(c.right_mask));
+    const DisparityImage unfiltered = semiglobal_reference(c.pair.left.view(), c.pair.right.view(), c.options,
+                                                           pointer_to(c.left_mask), pointer_to(c.right_mask));
     const DisparityImage defined = oracle_speckle(unfiltered, c.options.speckle_size,
                                                   c.options.speckle_max_diff * c.options.units_per_pixel());
     for (int y = 0; y < c.size.height; ++y) {
@@ -186,7 +185,7 @@ TEST(SemiglobalAgreement, PicturesWithoutRoomBesideThemAreNotLeft) {
       base.disparities = disparities;
       const StereoPair pair = random_pair(Content::kSlantedPair, size, 11);
       const DisparityImage defined =
-          semiglobal_by_definition(pair.left.view(), pair.right.view(), base, nullptr, nullptr);
+          semiglobal_reference(pair.left.view(), pair.right.view(), base, nullptr, nullptr);
       for (const MatcherOptions& options : implementations_of(base)) {
         EXPECT_TRUE(agrees(defined, pair, {}, options, 2)) << describe(options);
       }
