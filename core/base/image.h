@@ -27,8 +27,8 @@ struct Size {
   friend bool operator==(const Size&, const Size&) = default;
 };
 
-/// Borrows an image: `height` rows of `width` pixels, `stride` bytes from row to row (negative: bottom row first).
-/// Pixel may be const. Cheap to copy; valid as long as the memory that it borrows.
+/// Borrows an image: `height` rows of `width` pixels, `stride` bytes from row to row (negative: bottom row
+/// first). Pixel may be const. Cheap to copy; valid as long as the memory that it borrows.
 template <typename Pixel>
 class ImageView {
   using Byte = std::conditional_t<std::is_const_v<Pixel>, const std::byte, std::byte>;

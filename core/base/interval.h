@@ -28,8 +28,8 @@ inline Interval grown(Interval interval, int border, Interval limits) {
   return {std::max(interval.first - border, limits.first), std::min(interval.end + border, limits.end)};
 }
 
-/// Returns the rows of band @p band [0…bands − 1] of an image of @p image_height rows that is cut into @p bands
-/// [≥ 1] bands. Heights differ by at most one row; the first bands are the higher ones.
+/// Returns the rows of band @p band [0…bands − 1] of an image of @p image_height rows that is cut into @p
+/// bands [≥ 1] bands. Heights differ by at most one row; the first bands are the higher ones.
 inline RowRange band_rows(int image_height, int band, int bands) {
   const int base = image_height / bands;
   const int rest = image_height % bands;

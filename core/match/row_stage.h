@@ -12,7 +12,8 @@
 //   * The halo of a band. RowStage::begin() is called from the last stage to the first. Each call grows the
 //     wanted rows by the border, and the result is what the stage before has to make; the result of the first
 //     stage is the input that the band needs.
-//   * When a row can be made. RowStage::ready() is asked from the first stage to the last after each input row.
+//   * When a row can be made. After each input row, RowStage::ready() is asked from the first stage to the
+//     last.
 //   * How many rows are kept. A RowRing between two stages holds 2·border + 1 rows, and more where a stage
 //     takes or makes several rows at once.
 //
@@ -60,8 +61,8 @@ class RowRing {
 /// Says for one stage which rows it makes for the current band, and when the next one can be made.
 class RowStage {
  public:
-  /// A stage that reads, for its row r, the rows scale·r − @p border … scale·r + @p border of the stage before.
-  /// @p scale [1 or 2] is 2 where the stage works on every second row of its input.
+  /// A stage that reads, for its row r, the rows scale·r − @p border … scale·r + @p border of the stage
+  /// before. @p scale [1 or 2] is 2 where the stage works on every second row of its input.
   explicit RowStage(int border, int scale = 1) : border_(border), scale_(scale) {}
 
   /// Starts a band: the stage is to make @p rows. Returns the rows that it reads, clipped to those that the

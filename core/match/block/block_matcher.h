@@ -14,8 +14,8 @@
 
 namespace stereod {
 
-/// Matches by sums of absolute differences over a window (docs/matcher.md, part 1). A row passes through three
-/// stages (row_stage.h):
+/// Matches by sums of absolute differences over a window (docs/matcher.md, part 1). A row passes through
+/// three stages (row_stage.h):
 ///
 ///   stage      reads              border               makes
 ///   prefilter  input rows         1 (0 without)        gradient rows

@@ -81,10 +81,10 @@ void LeftRightCheck::reject(const RowWinners& winners, const MatcherOptions& opt
   }
 }
 
-// A score is the cost and k of a match in one number. Among the left pixels that match the same right one, the lowest x
-// has the lowest k, so the minimum score is the best match. The best scores lie from right to left, so that k is added
-// to the position of a column. The two loops that vectors cannot do are unrolled, do nothing else, and end with scores
-// that change nothing.
+// A score is the cost and k of a match in one number. Among the left pixels that match the same right one,
+// the lowest x has the lowest k, so the minimum score is the best match. The best scores lie from right to
+// left, so that k is added to the position of a column. The two loops that vectors cannot do are unrolled, do
+// nothing else, and end with scores that change nothing.
 template <typename Score>
 void LeftRightCheck::reject_inconsistent(Score* matches, Score* best, const RowWinners& winners,
                                          const MatcherOptions& options, std::int16_t* out) {
@@ -145,8 +145,8 @@ void TextureCheck::add_row(const std::uint8_t* added, const std::uint8_t* remove
   }
 }
 
-// A block of windows passes as a whole if each of its columns has enough gradient, which is the usual case. Else each
-// window is summed from its columns, eight windows a vector, which is faster than one sliding sum.
+// A block of windows passes as a whole if each of its columns has enough gradient, which is the usual case.
+// Else each window is summed from its columns, eight windows a vector, which is faster than one sliding sum.
 void TextureCheck::reject(const RowWinners& winners, const MatcherOptions& options,
                           std::int16_t* out) noexcept {
   const int threshold = options.texture_threshold;

@@ -11,8 +11,8 @@
 
 namespace stereod {
 
-/// Writes the disparity of each column in [winners.first, winners.end): in whole pixels or, with `subpixel`, in
-/// 1/16 px (docs/matcher.md, section 3).
+/// Writes the disparity of each column in [winners.first, winners.end): in whole pixels or, with `subpixel`,
+/// in 1/16 px (docs/matcher.md, section 3).
 void write_disparities(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept;
 
 /// Sets pixels with a rival (RowWinners::ambiguous) to kInvalidDisparity.
@@ -24,11 +24,13 @@ void reject_left(const RowWinners& winners, const std::uint8_t* valid, std::int1
 void reject_right(const RowWinners& winners, int min_disparity, const std::uint8_t* valid,
                   std::int16_t* out) noexcept;
 
-/// Sets pixels to kInvalidDisparity that disagree with the best match of their right pixel (docs/matcher.md, section
-/// 4, left_right_max_diff).
+/// Sets pixels to kInvalidDisparity that disagree with the best match of their right pixel (docs/matcher.md,
+/// section 4, left_right_max_diff).
 class LeftRightCheck {
  public:
+  /// Allocates memory for rows of @p width pixels.
   explicit LeftRightCheck(int width);
+  /// Checks one row. @p options.left_right_max_diff must be ≥ 0.
   void reject(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept;
   std::size_t scratch_bytes() const noexcept;
 
@@ -45,16 +47,18 @@ class LeftRightCheck {
   AlignedBuffer<std::uint16_t> best_k_;   // by left column: k of the best match of its right column
 };
 
-/// Sets pixels to kInvalidDisparity whose window has too little horizontal gradient (docs/matcher.md, section 4,
-/// texture_threshold). Works on rows of xsobel_row().
+/// Sets pixels to kInvalidDisparity whose window has too little horizontal gradient (docs/matcher.md, section
+/// 4, texture_threshold). Works on rows of xsobel_row().
 class TextureCheck {
  public:
+  /// Allocates memory for rows of @p width pixels.
   explicit TextureCheck(int width);
   /// Forgets all rows.
   void reset() noexcept;
-  /// Slides the window down by one row: adds row @p added and subtracts row @p removed, which is `window` rows older,
-  /// or null while the window fills. @p cap is that of xsobel_row().
+  /// Slides the window down by one row: adds row @p added and subtracts row @p removed, which is `window`
+  /// rows older, or null while the window fills. @p cap is that of xsobel_row().
   void add_row(const std::uint8_t* added, const std::uint8_t* removed, int cap) noexcept;
+  /// Checks the row in the middle of the window. @p options.texture_threshold must be > 0.
   void reject(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept;
   std::size_t scratch_bytes() const noexcept;
 

@@ -6,13 +6,14 @@
 
 namespace stereod {
 
-/// Writes 16·d + f [1/16 px] for @p count columns (docs/matcher.md, section 3). In the first column one disparity is
-/// searched, in the next one two, up to @p disparities. @p index, @p cost, @p before and @p after are as in RowWinners.
+/// Writes 16·d + f [1/16 px] for @p count columns (docs/matcher.md, section 3). In the first column one
+/// disparity is searched, in the next one two, up to @p disparities. @p index, @p cost, @p before and @p
+/// after are as in RowWinners.
 ///
-/// Real must hold 8 · cost exactly: float if that is below 2^24, else double. The result equals that of integer
-/// arithmetic, because a quotient of such numbers that is not a half is too far from one to be rounded to it; unlike
-/// integer division, vectors can compute it. Tag gives each differently compiled file an instantiation of its own.
-/// No std:: functions here, see kernels/kernel-inl.h.
+/// Real must hold 8 · cost exactly: float if that is below 2^24, else double. The result equals that of
+/// integer arithmetic, because a quotient of such numbers that is not a half is too far from one to be
+/// rounded to it; unlike integer division, vectors can compute it. Tag gives each differently compiled file
+/// an instantiation of its own. No std:: functions here, see kernels/kernel-inl.h.
 template <typename Real, typename Tag>
 void interpolate(const std::uint16_t* __restrict index, const std::uint32_t* __restrict cost,
                  const std::uint32_t* __restrict before, const std::uint32_t* __restrict after, int count,
@@ -24,8 +25,8 @@ void interpolate(const std::uint16_t* __restrict index, const std::uint32_t* __r
     const auto b = static_cast<std::int32_t>(after[i]);
     const std::int32_t height = (a > b ? a : b) - static_cast<std::int32_t>(cost[i]);
     const std::int32_t rise = 8 * (a - b);
-    const auto rounding =
-        static_cast<Real>(rise < 0 ? -1 : 1) / 2;  // an integer condition compiles without a branch
+    // An integer condition, which compiles without a branch.
+    const auto rounding = static_cast<Real>(rise < 0 ? -1 : 1) / 2;
     const Real offset = static_cast<Real>(rise) / static_cast<Real>(height > 0 ? height : 1) + rounding;
     // An integer mask: with a condition the compiler would move the conversion behind a branch.
     const std::int32_t inside = -static_cast<std::int32_t>((k > 0) & (k < last));

@@ -79,7 +79,8 @@ class RowSearch {
   virtual std::size_t scratch_bytes() const noexcept = 0;
 };
 
-/// Returns the columns that can have a disparity: [min_disparity + r, width − r), r = window / 2. May be empty.
+/// Returns the columns that can have a disparity: [min_disparity + r, width − r), r = window / 2. May be
+/// empty.
 inline ColumnRange valid_columns(const MatcherOptions& options, int width) {
   return {options.min_disparity + options.window / 2, width - options.window / 2};
 }

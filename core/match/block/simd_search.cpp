@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drives the vector kernels: chooses the arithmetic, cuts disparities into chunks and columns into tiles, and owns the
-// memory.
+// Drives the vector kernels: chooses the arithmetic, cuts disparities into chunks and columns into tiles, and
+// owns the memory.
 #include <algorithm>
 #include <vector>
 
@@ -68,8 +68,9 @@ SearchParams params_for(const MatcherOptions& options, int width, const Kernel& 
   return params;
 }
 
-// Tiles overlap by window − 1 columns and have winners in whole blocks of columns: at least one block, because the
-// overlap would dominate smaller tiles. In a cache of 24 KiB, 20 KiB of column sums leave room for the input rows.
+// Tiles overlap by window − 1 columns and have winners in whole blocks of columns: at least one block,
+// because the overlap would dominate smaller tiles. In a cache of 24 KiB, 20 KiB of column sums leave room
+// for the input rows.
 std::vector<ColumnTile> tiles_for(const SearchParams& params) {
   const int overlap = params.window - 1;
   int tile_winners = params.columns() - overlap;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sliding window of the thesis, section 3.7: a window's sum is that of the window before plus what enters minus
-// what leaves, first along the row (D to S1), then down the columns (S1 to S2).
+// The sliding window of the thesis, section 3.7: a window's sum is that of the window before plus what enters
+// minus what leaves, first along the row (D to S1), then down the columns (S1 to S2).
 #include <algorithm>
 #include <cstdlib>
 
@@ -63,7 +63,8 @@ class SlidingSearch final : public RowSearch {
     }
   }
 
-  // Writes S1, the sums of D over the `window` columns that end in c. Adds the new S1 to S2 and subtracts the oldest.
+  // Writes S1, the sums of D over the `window` columns that end in c. Adds the new S1 to S2 and subtracts the
+  // oldest.
   void sum_row(int k, std::uint16_t* s1, std::uint32_t* s2) {
     int sum = 0;
     for (int c = k; c < columns_; ++c) {

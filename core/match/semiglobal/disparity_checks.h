@@ -19,7 +19,8 @@ class DisparityChecks {
   DisparityChecks(const MatcherOptions& options, const SearchParams& params, const Kernel& kernel);
 
   /// Writes the disparities of a grid row, kNoDisparity where a check fails. @p sums and @p winners are as
-  /// Kernel::paths_from_left leaves them. The masks are rows of the image; null if all their pixels are valid.
+  /// Kernel::paths_from_left leaves them. The masks are rows of the image; null if all their pixels are
+  /// valid.
   void write(const std::uint8_t* sums, const std::uint16_t* winners, const std::uint8_t* left_mask,
              const std::uint8_t* right_mask, SubsampledDisparity* out) noexcept;
   std::size_t scratch_bytes() const noexcept;

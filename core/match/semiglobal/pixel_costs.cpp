@@ -12,8 +12,9 @@ std::size_t as_size(int value) { return static_cast<std::size_t>(value); }
 constexpr int kNibbles = 16;
 constexpr int kNibbleShift = 4;  // a left nibble is the offset of its table of 16 bytes
 
-// The planes hold these beyond the image. No census comparison differs, because the tables give 0 for 128. The
-// gradient differs by at least 64, the maximum of gradient_limit, also modulo 256: gradients are at most 126.
+// The planes hold these beyond the image. No census comparison differs, because the tables give 0 for 128.
+// The gradient differs by at least 64, the maximum of gradient_limit, also modulo 256: gradients are at most
+// 126.
 constexpr std::uint8_t kOutside[kPlanes] = {128, 128, 191};
 
 }  // namespace

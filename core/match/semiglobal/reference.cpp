@@ -98,8 +98,8 @@ class Reference {
     return false;
   }
 
-  // Whether the best match of the right sample (on the coarse grid: two right pixels side by side) that sample
-  // x matches has a k too different from that of x.
+  // Whether the best match of the right sample (on the coarse grid: two right pixels side by side) that
+  // sample x matches has a k too different from that of x.
   bool is_inconsistent(const CostsOfRow& sums, const std::vector<int>& winners, int x) const {
     if (options_.left_right_max_diff < 0) return false;
     const auto right_sample = [&](int sample) {
@@ -143,8 +143,9 @@ class Reference {
     return value ? value->units : -1;
   }
 
-  // Returns the median of a sample and the two above and below it if that is clearly nearer than the median of
-  // nine and one of the other two is close to it, so that thin upright things stay; else the median of nine.
+  // Returns the median of a sample and the two above and below it if that is clearly nearer than the median
+  // of nine and one of the other two is close to it, so that thin upright things stay; else the median of
+  // nine.
   static int thin_or(const std::vector<ValueRow>& grid, int x, int y, int of_nine) {
     constexpr int kClose = 8;
     std::array<int, 3> column{};

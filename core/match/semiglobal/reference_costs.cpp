@@ -15,7 +15,8 @@ int pixel(GrayView image, int x, int y) {
   return image.at(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1));
 }
 
-// Compares eight pairs of pixels on opposite sides of (x, y): one bit each, 1 where the first one is brighter.
+// Compares eight pairs of pixels on opposite sides of (x, y): one bit each, 1 where the first one is
+// brighter.
 int census(GrayView image, int x, int y) {
   constexpr std::array<std::array<int, 2>, 8> kFirst{
       {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {-2, 0}, {-2, -2}, {0, -2}, {2, -2}}};

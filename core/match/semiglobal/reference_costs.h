@@ -34,7 +34,8 @@ struct SampledPair {
   static int image_row(int grid_y) { return 2 * grid_y; }
   /// Returns the column of the right image that column @p x matches with number @p k; below 0: outside.
   int match_of(int x, int k) const { return x - options.min_disparity - k; }
-  /// Returns |gray value at (x, y) − gray value at (to_x, to_y)| of the left image, both clamped to the image.
+  /// Returns |gray value at (x, y) − gray value at (to_x, to_y)| of the left image, both clamped to the
+  /// image.
   int gray_step(int x, int y, int to_x, int to_y) const;
 
   GrayView left, right;

@@ -13,9 +13,9 @@
 
 namespace stereod {
 
-/// Matches by costs of census and gradient, summed along two paths of each row (docs/matcher.md, part 2), with
-/// the kernel of an instruction set. Works on a grid: every second row of the image, and every second column
-/// or each. A row passes through these stages (row_stage.h):
+/// Matches by costs of census and gradient, summed along two paths of each row (docs/matcher.md, part 2),
+/// with the kernel of an instruction set. Works on a grid: every second row of the image, and every second
+/// column or each. A row passes through these stages (row_stage.h):
 ///
 ///   stage       reads           border                    makes
 ///   costs       input rows      kCensusReach, scale 2     costs of a grid row, guide and P2 of its samples
@@ -82,8 +82,8 @@ class SemiglobalMatcher final : public BandMatcher {
   const ValidityMask* right_mask_ = nullptr;
 };
 
-/// Returns a BandMatcher around semiglobal_reference(), for comparison with SemiglobalMatcher. It asks for all
-/// rows of the image whatever the band, makes all rows of the band final with the last one, and allocates
+/// Returns a BandMatcher around semiglobal_reference(), for comparison with SemiglobalMatcher. It asks for
+/// all rows of the image whatever the band, makes all rows of the band final with the last one, and allocates
 /// memory in push().
 std::unique_ptr<BandMatcher> make_reference_semiglobal_matcher(const MatcherOptions& options, Size image);
 

@@ -22,8 +22,8 @@ struct OutputParams {
   bool fill;          ///< a disparity whose match lies outside the right image becomes filled, else invalid
 };
 
-/// Gives each sample without a disparity the lower one of the nearest disparities to the left and to the right
-/// in its row, marked as filled. A row without any disparity stays as it is. @p width [samples].
+/// Gives each sample without a disparity the lower one of the nearest disparities to the left and to the
+/// right in its row, marked as filled. A row without any disparity stays as it is. @p width [samples].
 void fill_holes(SubsampledDisparity* row, int width) noexcept;
 
 }  // namespace stereod::semiglobal

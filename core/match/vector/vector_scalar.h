@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vector layer in plain C++, with the compiler's own vector types. Defines what every operation means; the
-// other layers do the same with instructions of their CPU.
+// The vector layer in plain C++, with the compiler's own vector types. Defines what every operation means;
+// the other layers do the same with instructions of their CPU.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ struct VectorScalar {
   static constexpr bool kOneSize = true;  // one size of chunks, to keep the program small
   /// Offset of every 16-bit sum, modulo 65536, so that min16() may compare signed numbers.
   static constexpr std::uint16_t kBias = 0;
-  /// What the two results of widening signed bytes hold: the even and the odd bytes (true), or the lower and the
-  /// upper eight (false). Unsigned bytes always widen to lower and upper; vectors of 32 bytes do so within each
-  /// half.
+  /// What the two results of widening signed bytes hold: the even and the odd bytes (true), or the lower and
+  /// the upper eight (false). Unsigned bytes always widen to lower and upper; vectors of 32 bytes do so
+  /// within each half.
   static constexpr bool kEvenOdd = false;
   using Reg [[gnu::vector_size(16)]] = std::uint16_t;
   using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
@@ -34,8 +34,8 @@ struct VectorScalar {
   static Reg broadcast8(std::uint8_t value) { return reinterpret_cast<Reg>(Bytes{} + value); }
   static Reg broadcast16(std::uint16_t value) { return Reg{} + value; }
 
-  /// Forces a value to stay in its register: compilers reload operands that an instruction can take from memory,
-  /// and move values that could stay.
+  /// Forces a value to stay in its register: compilers reload operands that an instruction can take from
+  /// memory, and move values that could stay.
   static void pin(Reg&) {}
 
   /// Reverses 16 bytes. Here and below the 16 or 32 bytes read may overlap those written.
@@ -83,9 +83,9 @@ struct VectorScalar {
   static Reg add16(Reg a, Reg b) { return a + b; }
   static Reg sub16(Reg a, Reg b) { return a - b; }
   static Reg min16(Reg a, Reg b) { return a < b ? a : b; }
-  /// 32-bit lanes. even_256, odd_256: the even or odd signed 16-bit lanes, times 256. greater32: all bits or none
-  /// of each lane. horizontal_min32: the minimum of all lanes. The bits of numbers to compare are those of finite
-  /// floating-point numbers ≥ 2^−126, so that a layer may compare floating-point numbers instead.
+  /// 32-bit lanes. even_256, odd_256: the even or odd signed 16-bit lanes, times 256. greater32: all bits or
+  /// none of each lane. horizontal_min32: the minimum of all lanes. The bits of numbers to compare are those
+  /// of finite floating-point numbers ≥ 2^−126, so that a layer may compare floating-point numbers instead.
   static Reg even_256(Reg a) { return reinterpret_cast<Reg>(reinterpret_cast<Signed32>(a) << 16 >> 8); }
   static Reg odd_256(Reg a) { return reinterpret_cast<Reg>(reinterpret_cast<Signed32>(a) >> 16 << 8); }
   static Reg add32(Reg a, Reg b) {
@@ -127,8 +127,8 @@ struct VectorScalar {
     return minimum;
   }
 
-  /// Returns the minimum lane without bias in the low half, and in the high half the first of 8 lanes that has it
-  /// (wider vectors are folded onto 8 lanes).
+  /// Returns the minimum lane without bias in the low half, and in the high half the first of 8 lanes that
+  /// has it (wider vectors are folded onto 8 lanes).
   static std::uint32_t horizontal_argmin16(Reg a) {
     std::uint32_t minimum = static_cast<std::uint32_t>(a[0]) << 3;  // value and lane in one number to compare
     for (std::uint32_t i = 1; i < 8; ++i) {
@@ -139,8 +139,8 @@ struct VectorScalar {
   }
 
   /// Returns the first disparity of the chunk whose sum equals @p wanted; there must be one. @p sums are
-  /// 2·kVectors registers, the two halves of each vector of bytes side by side. kEvenOddOrder: the first halves
-  /// hold the lower disparities of the chunk, the second ones the upper; else each vector holds a run.
+  /// 2·kVectors registers, the two halves of each vector of bytes side by side. kEvenOddOrder: the first
+  /// halves hold the lower disparities of the chunk, the second ones the upper; else each vector holds a run.
   template <int kVectors, bool kEvenOddOrder>
   static std::uint32_t first_equal(const Reg* sums, Reg wanted) {
     static_assert(!kEvenOddOrder);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The search. The window sums of all disparities of a chunk stay in registers along the row: the column sum that
-// enters is added, the one `window` columns back is subtracted. Disparities are the lanes, so the winner is a
-// minimum over lanes.
+// The search. The window sums of all disparities of a chunk stay in registers along the row: the column sum
+// that enters is added, the one `window` columns back is subtracted. Disparities are the lanes, so the winner
+// is a minimum over lanes.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace stereod::kernels {
 
-/// Masks for the lanes of a chunk that cannot be searched: 0 for the first `searched` ones, 0xFFFF for the others,
-/// plus bias.
+/// Masks for the lanes of a chunk that cannot be searched: 0 for the first `searched` ones, 0xFFFF for the
+/// others, plus bias.
 template <typename V>
 struct Masks {
   alignas(64) static constexpr auto kLanes = [] {
@@ -72,9 +72,9 @@ class BlockSearch {
   }
 
  private:
-  // Returns the end of the block that begins at `first`. The first block of a tile holds the columns before the
-  // first whole window. A block that would contain the end of the left border ends there, if that leaves enough
-  // columns to be searched without masks.
+  // Returns the end of the block that begins at `first`. The first block of a tile holds the columns before
+  // the first whole window. A block that would contain the end of the left border ends there, if that leaves
+  // enough columns to be searched without masks.
   static int end_of_block(const SearchParams& params, const ColumnTile& tile, int first) {
     if (first == tile.first) return first + params.window - 1;
     constexpr int kMinColumns = 8;
@@ -97,8 +97,9 @@ class BlockSearch {
   using Sweep = void (*)(const SearchParams&, const ColumnTile&, const RowChange&, const Scratch&,
                          const ColumnBlock&, int chunk, WindowSums&, std::uint32_t (*minima)[kBlockColumns]);
 
-  // Returns the function for a block: at the left border fewer disparities can be searched than elsewhere. Plain C++
-  // has one function for all cases, to keep the program small; several are faster by a tenth at most.
+  // Returns the function for a block: at the left border fewer disparities can be searched than elsewhere.
+  // Plain C++ has one function for all cases, to keep the program small; several are faster by a tenth at
+  // most.
   static Sweep sweep_for(const SearchParams& params, const ColumnBlock& block, int chunk) {
     return params.recompute ? sweep_for<true>(params, block, chunk) : sweep_for<false>(params, block, chunk);
   }
@@ -116,8 +117,8 @@ class BlockSearch {
     return aligned ? sweep<kRecompute, false, kAligned> : sweep<kRecompute, false, kUnaligned>;
   }
 
-  // How a sweep stores the sums to scratch.block_sums: not at all, in aligned vectors, or at the offsets that the
-  // first disparity and the tail of the chunk require.
+  // How a sweep stores the sums to scratch.block_sums: not at all, in aligned vectors, or at the offsets that
+  // the first disparity and the tail of the chunk require.
   enum StoreSums { kNoStore, kAligned, kUnaligned };
 
   // The window sums of a chunk between two blocks, register by register.
@@ -131,7 +132,8 @@ class BlockSearch {
     return position < kVectors ? 2 * position : 2 * (position - kVectors) + 1;
   }
 
-  // Clears the window sums. In packed arithmetic the low bits of each hold the number of its group of 8 lanes.
+  // Clears the window sums. In packed arithmetic the low bits of each hold the number of its group of 8
+  // lanes.
   static void clear(WindowSums& window_sums) {
     WindowSums ordered;
     for (int lane = 0; lane < kChunk; ++lane) {
@@ -148,8 +150,8 @@ class BlockSearch {
     }
   }
 
-  // Adds the row to the column sums of the block, slides the window along them and writes the minimum sum of each
-  // column and its lane. kBorder: the disparities that can be searched differ from column to column.
+  // Adds the row to the column sums of the block, slides the window along them and writes the minimum sum of
+  // each column and its lane. kBorder: the disparities that can be searched differ from column to column.
   template <bool kRecompute, bool kBorder, StoreSums kStore>
   static void sweep(const SearchParams& params, const ColumnTile& tile, const RowChange& row,
                     const Scratch& scratch, const ColumnBlock& block, int chunk, WindowSums& window_sums,
@@ -179,8 +181,8 @@ class BlockSearch {
                                                removed_left, in, first, second);
         Reg& lower = window[2 * c];
         Reg& upper = window[2 * c + 1];
-        // Pinned so that the compiler does not subtract the old sum from the window sum instead, which would need a
-        // copy of a register.
+        // Pinned so that the compiler does not subtract the old sum from the window sum instead, which would
+        // need a copy of a register.
         first = V::sub16(first, V::load_aligned(in - back));
         second = V::sub16(second, V::load_aligned(in - back + kLanes));
         V::pin(first);
@@ -205,8 +207,8 @@ class BlockSearch {
     for (int i = 0; i < 2 * kVectors; ++i) V::store_aligned(window_sums.sums + i * kLanes, window[i]);
   }
 
-  // Loads the two registers of byte vector c from numbers in the order of disparities. The tail of the chunk begins
-  // with number `tail`.
+  // Loads the two registers of byte vector c from numbers in the order of disparities. The tail of the chunk
+  // begins with number `tail`.
   [[gnu::always_inline]] static inline void load_lanes(const std::uint16_t* ordered, int c, int tail,
                                                        Reg& first, Reg& second) {
     if constexpr (kEvenOdd) {
@@ -244,8 +246,8 @@ class BlockSearch {
     return c == kVectors - 1 ? tail : c * V::kBytes;
   }
 
-  // Writes the minimum sum to the low half of a minimum, and to the high half its lane (packed) or its number in the
-  // chunk (else).
+  // Writes the minimum sum to the low half of a minimum, and to the high half its lane (packed) or its number
+  // in the chunk (else).
   static inline void find_minimum(const Reg* sums, int column, std::uint32_t (*minima)[kBlockColumns]) {
     if constexpr (kHalves == 2) {
 #pragma GCC unroll 2

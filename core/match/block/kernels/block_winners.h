@@ -33,8 +33,8 @@ struct BlockBest {
 template <typename V, Arithmetic kA>
 class BlockWinners {
  public:
-  // Takes the minima that are lower than the best so far, or all of the first sweep. Always works on whole blocks: a
-  // compile-time number of columns saves most of the code around a vector loop.
+  // Takes the minima that are lower than the best so far, or all of the first sweep. Always works on whole
+  // blocks: a compile-time number of columns saves most of the code around a vector loop.
   static void merge(const std::uint32_t* __restrict minima, ChunkDisparities map, bool first,
                     BlockBest& __restrict best) {
     for (int i = 0; first && i < kBlockColumns; ++i) {
@@ -112,8 +112,8 @@ class WinnerWriter {
     }
   }
 
-  // Loads four sums of each column at once, the second of which is the winner's. kMaskWinner also overwrites the
-  // winner's sum and its two neighbors with "no sum".
+  // Loads four sums of each column at once, the second of which is the winner's. kMaskWinner also overwrites
+  // the winner's sum and its two neighbors with "no sum".
   template <bool kMaskWinner>
   static void load_neighbors(const SearchParams& params, const Scratch& scratch, const BlockBest& best,
                              int count, std::uint64_t* neighborhoods) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Column sums: for every column c and disparity k the sum of |L−R| over the rows of the window, in memory, with 16
-// bits. A new row adds its differences and subtracts those of the row that leaves.
+// Column sums: for every column c and disparity k the sum of |L−R| over the rows of the window, in memory,
+// with 16 bits. A new row adds its differences and subtracts those of the row that leaves.
 #pragma once
 
 #include <cstddef>
@@ -15,23 +15,23 @@ namespace stereod::kernels {
   return arithmetic == Arithmetic::kPacked ? 3 : arithmetic == Arithmetic::kPackedHalves ? 2 : 0;
 }
 
-/// Returns whether the registers of a chunk hold its lower and its upper half by turns, because bytes are widened
-/// by taking the even and the odd ones. Right rows are interleaved to match.
+/// Returns whether the registers of a chunk hold its lower and its upper half by turns, because bytes are
+/// widened by taking the even and the odd ones. Right rows are interleaved to match.
 template <typename V>
 constexpr bool even_odd_order(Arithmetic arithmetic) {
   return V::kEvenOdd && arithmetic != Arithmetic::kRaw && arithmetic != Arithmetic::kWide;
 }
 
-/// Returns the lane at which the tail of a chunk begins: its upper half where halves are interleaved, else its last
-/// vector.
+/// Returns the lane at which the tail of a chunk begins: its upper half where halves are interleaved, else
+/// its last vector.
 template <typename V>
 constexpr int tail_begin(Arithmetic arithmetic, int chunk) {
   return even_odd_order<V>(arithmetic) ? chunk / 2 : chunk - V::kBytes;
 }
 
-/// Returns the disparity of the chunk at which its tail begins. In a chunk with more lanes than disparities the tail
-/// begins that much earlier: every lane is a disparity that is searched, some of them twice, and no lane needs a
-/// mask. Lanes without a disparity remain only if there are fewer disparities than tail_begin().
+/// Returns the disparity of the chunk at which its tail begins. In a chunk with more lanes than disparities
+/// the tail begins that much earlier: every lane is a disparity that is searched, some of them twice, and no
+/// lane needs a mask. Lanes without a disparity remain only if there are fewer disparities than tail_begin().
 template <typename V>
 [[gnu::always_inline]] constexpr int tail_disparity(const SearchParams& params) {
   const int begin = tail_begin<V>(params.arithmetic, params.chunk);

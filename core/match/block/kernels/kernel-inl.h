@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Source of all block-matching kernels. Each kernel_<isa>.cpp compiles it for its instruction set, with a vector
-// layer V: V::Reg, V::kBytes and the operations that core/match/vector/vector_scalar.h defines.
+// Source of all block-matching kernels. Each kernel_<isa>.cpp compiles it for its instruction set, with a
+// vector layer V: V::Reg, V::kBytes and the operations that core/match/vector/vector_scalar.h defines.
 //
-// This header and those that it includes are compiled with instructions that the running CPU may lack. Nothing
-// in them may come from a header whose inline functions are also used in other files, because the linker keeps
-// one copy of those: no std:: functions except memcpy, and every function that is not a template of V takes a
-// Tag or is constexpr.
+// This header and those that it includes are compiled with instructions that the running CPU may lack.
+// Nothing in them may come from a header whose inline functions are also used in other files, because the
+// linker keeps one copy of those: no std:: functions except memcpy, and every function that is not a template
+// of V takes a Tag or is constexpr.
 #pragma once
 
 #include "core/match/block/interpolation.h"
@@ -18,8 +18,8 @@
 
 namespace stereod::kernels {
 
-/// Calls the functions compiled for the run-time values of SearchParams. Chunks have 32, 48 (only with vectors of
-/// 16 bytes) or 64 disparities: every further size would make the program larger.
+/// Calls the functions compiled for the run-time values of SearchParams. Chunks have 32, 48 (only with
+/// vectors of 16 bytes) or 64 disparities: every further size would make the program larger.
 template <typename V>
 class Dispatch {
   // Plain C++ is for CPUs without a vector layer of their own. It has one size of chunks, to be small.

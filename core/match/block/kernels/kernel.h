@@ -31,8 +31,8 @@ enum class Arithmetic {
   kWide,
 };
 
-/// What stays the same for all rows. Column c of a row is image column min_disparity + c. For the window whose
-/// last column is c, the disparities k < min(disparities, c − window + 2) can be searched.
+/// What stays the same for all rows. Column c of a row is image column min_disparity + c. For the window
+/// whose last column is c, the disparities k < min(disparities, c − window + 2) can be searched.
 struct SearchParams {
   Arithmetic arithmetic;
   int width;  ///< [px] of the image
@@ -47,10 +47,12 @@ struct SearchParams {
 
   int columns() const { return width - min_disparity; }
   int padded_disparities() const { return chunk * chunks; }
-  /// Returns the elements from one column of Scratch::block_sums to the next. Those between may be overwritten.
+  /// Returns the elements from one column of Scratch::block_sums to the next. Those between may be
+  /// overwritten.
   int block_step() const { return padded_disparities() + kBlockGap; }
-  /// Returns the first disparity of chunk @p index. The last of several chunks ends with the last disparity, so
-  /// that it overlaps the one before. A single chunk may have more lanes than disparities: see column_sums.h.
+  /// Returns the first disparity of chunk @p index. The last of several chunks ends with the last disparity,
+  /// so that it overlaps the one before. A single chunk may have more lanes than disparities: see
+  /// column_sums.h.
   int first_of(int index) const {
     return index + 1 < chunks || chunks == 1 ? index * chunk : disparities - chunk;
   }
@@ -58,8 +60,9 @@ struct SearchParams {
   int right_row_bytes() const { return 2 * (width + padded_disparities()) + kRowMargin; }
 };
 
-/// The columns [first, end) of a row that are searched together, with column sums of their own: the whole row,
-/// or so few that the column sums stay in the first-level cache from row to row. Windows lie within a tile.
+/// The columns [first, end) of a row that are searched together, with column sums of their own: the whole
+/// row, or so few that the column sums stay in the first-level cache from row to row. Windows lie within a
+/// tile.
 struct ColumnTile {
   int first, end;
   int columns() const { return end - first; }
@@ -124,7 +127,8 @@ struct Kernel {
   void (*search_row)(const SearchParams&, const ColumnTile&, const RowChange&, const Scratch&,
                      const Winners&);
 
-  /// interpolate<float>() of core/match/block/interpolation.h, which is exact for sums of absolute differences.
+  /// interpolate<float>() of core/match/block/interpolation.h, which is exact for sums of absolute
+  /// differences.
   void (*interpolate)(const std::uint16_t* index, const std::uint32_t* cost, const std::uint32_t* before,
                       const std::uint32_t* after, int count, int min_disparity, int disparities,
                       std::int16_t* out);

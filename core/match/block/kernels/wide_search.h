@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The search for windows whose cost exceeds 16 bits: the same column sums, but window sums of 32 bits in memory. Each
-// is cost·256 + disparity, so that the minimum tells both.
+// The search for windows whose cost exceeds 16 bits: the same column sums, but window sums of 32 bits in
+// memory. Each is cost·256 + disparity, so that the minimum tells both.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ class WideSearch {
   using Reg = typename V::Reg;
 
  public:
-  /// Kernel::add_row, and with kSearch Kernel::search_row, for Arithmetic::kWide: one chunk of whole vectors. kChunk:
-  /// its size as a compile-time constant; 0 means SearchParams::chunk.
+  /// Kernel::add_row, and with kSearch Kernel::search_row, for Arithmetic::kWide: one chunk of whole vectors.
+  /// kChunk: its size as a compile-time constant; 0 means SearchParams::chunk.
   template <bool kSearch, bool kRecompute, int kChunk>
   static void row(const SearchParams& params, const ColumnTile& tile, const RowChange& change,
                   const Scratch& scratch, const Winners& out) {
@@ -55,12 +55,12 @@ class WideSearch {
 
  private:
   static constexpr int kMax = kMaxChunk * kMaxChunks;
-  // Every sum starts at kBase, so that V::min32 may compare floating-point numbers. kLocked is added to the sums of
-  // disparities that cannot be searched yet.
+  // Every sum starts at kBase, so that V::min32 may compare floating-point numbers. kLocked is added to the
+  // sums of disparities that cannot be searched yet.
   static constexpr std::uint32_t kBase = 0x1000'0000, kLocked = 0x4000'0000;
 
-  // Window sums in the order in which widening leaves the disparities, and the position of each disparity. The
-  // positions of disparities −1 and kMax exist but are meaningless.
+  // Window sums in the order in which widening leaves the disparities, and the position of each disparity.
+  // The positions of disparities −1 and kMax exist but are meaningless.
   struct Windows {
     alignas(64) std::uint32_t sums[kMax];
     std::uint8_t position_of[kMax + 2];
@@ -79,8 +79,8 @@ class WideSearch {
     }
   }
 
-  // Empties the windows before the first column of the tile, and locks the disparities that lie outside the right
-  // image there. The order is found by widening the numbers of the disparities.
+  // Empties the windows before the first column of the tile, and locks the disparities that lie outside the
+  // right image there. The order is found by widening the numbers of the disparities.
   static void clear(const SearchParams& params, int first_column, Windows& windows) {
     alignas(64) std::uint8_t numbers[V::kBytes];
     for (int i = 0; i < V::kBytes; ++i) numbers[i] = static_cast<std::uint8_t>(i);

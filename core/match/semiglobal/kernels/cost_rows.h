@@ -73,8 +73,8 @@ class CensusRows {
   }
 };
 
-/// Kernel::cost_row. Passes over the row once for every two vectors of disparities, so that the values carried
-/// from column to column stay in registers: some CPUs have only 16.
+/// Kernel::cost_row. Passes over the row once for every two vectors of disparities, so that the values
+/// carried from column to column stay in registers: some CPUs have only 16.
 template <typename V>
 class CostRows {
   using Reg = typename V::Reg;
@@ -115,9 +115,9 @@ class CostRows {
     if (k < fixed.vectors) smooth<kEveryColumn, 1>(fixed, k);
   }
 
-  // Smooths kGroup vectors from number `first` on, by averages: p(x) of the costs at x − 1 and x, q(x) of p(x)
-  // and p(x − 2), and the result at x of q(x + 1) and q(x + 2), which weights the five costs 1 2 2 2 1. Each
-  // iteration takes an odd and an even column.
+  // Smooths kGroup vectors from number `first` on, by averages: p(x) of the costs at x − 1 and x, q(x) of
+  // p(x) and p(x − 2), and the result at x of q(x + 1) and q(x + 2), which weights the five costs 1 2 2 2 1.
+  // Each iteration takes an odd and an even column.
   template <bool kEveryColumn, int kGroup>
   static void smooth(const Fixed& given, int first) {
     const Fixed fixed = given;  // a local copy, which no pointer aliases
@@ -154,8 +154,8 @@ class CostRows {
     }
   }
 
-  // Computes the costs of a pixel and its matches. Census: the left nibble chooses a table, the right nibbles are
-  // looked up in it.
+  // Computes the costs of a pixel and its matches. Census: the left nibble chooses a table, the right nibbles
+  // are looked up in it.
   template <int kGroup>
   [[gnu::always_inline]] static void costs_at(const Fixed& fixed, int first, std::ptrdiff_t x, Reg* costs) {
     const std::int32_t* const offsets = fixed.offsets + x * fixed.vectors + first;

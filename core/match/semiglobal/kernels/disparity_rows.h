@@ -161,9 +161,10 @@ class DisparityRows {
   static constexpr SubsampledDisparity kNear = kUnits * 3 / 2;
   static constexpr SubsampledDisparity kClose = kUnits / 2;
 
-  // Bits of the guide, in the place where interpolate() wants them: the pixel between two others resembles the
-  // second one more (kNotFirst) or the first one (kNotSecond). No disparity reaches these bits. A byte of guide()
-  // holds them twice, shifted right by different numbers of bits: for its own row and for the next one.
+  // Bits of the guide, in the place where interpolate() wants them: the pixel between two others resembles
+  // the second one more (kNotFirst) or the first one (kNotSecond). No disparity reaches these bits. A byte of
+  // guide() holds them twice, shifted right by different numbers of bits: for its own row and for the next
+  // one.
   static constexpr SubsampledDisparity kNotFirst = 0x4000, kNotSecond = 0x2000;
   static constexpr int kDownShift = 10;
 
@@ -201,7 +202,8 @@ class DisparityRows {
     }
   }
 
-  // Exact: a quotient that is no multiple of 1/2 differs from the nearest one by more than a float's rounding.
+  // Exact: a quotient that is no multiple of 1/2 differs from the nearest one by more than a float's
+  // rounding.
   static Values vertex_of_ints(Ints slope, Ints divisor) {
     const Reals quotient =
         __builtin_convertvector(8 * slope, Reals) / __builtin_convertvector(divisor, Reals);
@@ -246,8 +248,8 @@ class DisparityRows {
     return {lesser(low, c), greater(low, lesser(high, c)), greater(high, c)};
   }
 
-  // Returns the median of three sorted columns: the middle one of the maximum of the minima, the median of the
-  // middles and the minimum of the maxima.
+  // Returns the median of three sorted columns: the middle one of the maximum of the minima, the median of
+  // the middles and the minimum of the maxima.
   static Values median_of(const Column& a, const Column& b, const Column& c) {
     return middle(greater(greater(a.minimum, b.minimum), c.minimum), middle(a.middle, b.middle, c.middle),
                   lesser(lesser(a.maximum, b.maximum), c.maximum));

@@ -3,7 +3,8 @@
 // layer V, whose operations core/match/vector/vector_scalar.h defines.
 //
 // As in core/match/block/kernels/kernel-inl.h, nothing here may come from a header whose inline functions are
-// also used in files compiled for the baseline CPU: no std:: functions, and every function is a template of V.
+// also used in files compiled for the baseline CPU: no std:: functions, and every function is a template of
+// V.
 #pragma once
 
 #include "core/match/semiglobal/kernels/cost_rows.h"

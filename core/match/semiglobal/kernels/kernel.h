@@ -22,9 +22,9 @@ inline constexpr int kCensusReach = 2;
 /// Grid rows above and below a grid row that its costs are smoothed with.
 inline constexpr int kSmoothReach = 2;
 
-/// What stays the same during the life of a matcher. The disparities of a sample are striped: number k lies in
-/// vector k % vectors at lane k / vectors, so that a neighboring disparity is mostly in a neighboring vector
-/// at the same lane. The numbers from `disparities` on are padding, at the ends of the vectors.
+/// What stays the same during the life of a matcher. The disparities of a sample are striped: number k lies
+/// in vector k % vectors at lane k / vectors, so that a neighboring disparity is mostly in a neighboring
+/// vector at the same lane. The numbers from `disparities` on are padding, at the ends of the vectors.
 struct SearchParams {
   int width;  ///< [px] of the image
   int min_disparity;
@@ -46,7 +46,7 @@ struct SearchParams {
   int lane_offset(int k) const { return k % vectors * lanes + k / vectors; }
 };
 
-/// Input and output of Kernel::cost_row. All memory is 64-byte aligned.
+/// Input and output of Kernel::cost_row. `tables` and `costs` are aligned to whole vectors.
 struct CostRow {
   /// [kPlanes][row_bytes()] of the left row, census nibbles times 16; the last pixel is repeated
   /// kColumnPadding times.
@@ -75,14 +75,14 @@ struct WinnerRow {
   const std::uint8_t *index, *sum_before, *sum_after;  ///< the winner's k, the sums of k − 1 and k + 1
 };
 
-/// The functions of one instruction set. Rows may have any alignment; costs, sums and padding are 64-byte
-/// aligned. docs/matcher.md, part 2, defines what each computes.
+/// The functions of one instruction set. Rows may have any alignment; costs, sums and padding are aligned to
+/// whole vectors. docs/matcher.md, part 2, defines what each function computes.
 struct Kernel {
   int lanes;
 
-  /// Writes the census (section 2.1) of a row of pixels: two planes of @p row_bytes bytes, each nibble shifted
-  /// left by @p shift [0 or 4]. @p rows are the five rows from two above to two below; kCensusReach pixels to
-  /// the left and to the right of each can be read.
+  /// Writes the census (section 2.1) of a row of pixels: two planes of @p row_bytes bytes, each nibble
+  /// shifted left by @p shift [0 or 4]. @p rows are the five rows from two above to two below; kCensusReach
+  /// pixels to the left and to the right of each can be read.
   void (*census_row)(const std::uint8_t* const* rows, int row_bytes, int shift, std::uint8_t* out);
 
   /// xsobel_row() of core/match/block/prefilter.h.
@@ -118,9 +118,9 @@ struct Kernel {
                      const SubsampledDisparity* below, int width, bool fill, SubsampledDisparity* out);
 
   /// Writes the guide of an image row of the left image, one byte a pixel, for upsample_columns() and
-  /// interpolate_rows(): which of its left and right neighbors a pixel of @p row resembles more in gray value,
-  /// and which of its upper (@p row) and lower (@p after) neighbors a pixel of @p next. Reads up to 32 pixels
-  /// on both sides of the rows and writes up to 32 bytes past the end.
+  /// interpolate_rows(): which of its left and right neighbors a pixel of @p row resembles more in gray
+  /// value, and which of its upper (@p row) and lower (@p after) neighbors a pixel of @p next. Reads up to 32
+  /// pixels on both sides of the rows and writes up to 32 bytes past the end.
   void (*guide_row)(const std::uint8_t* row, const std::uint8_t* next, const std::uint8_t* after, int width,
                     std::uint8_t* out);
 
@@ -129,9 +129,9 @@ struct Kernel {
   void (*upsample_columns)(SubsampledDisparity* row, int image_width, const std::uint8_t* guide,
                            SubsampledDisparity* out);
 
-  /// Writes the row between two rows of disparities, column by column (section 2.5): the mean if the two differ
-  /// by less than 1.5 px, else the one whose pixel resembles the pixel between them more, the lower one if both
-  /// do alike; the known one if only one is known. @p guide is that of the row of @p a.
+  /// Writes the row between two rows of disparities, column by column (section 2.5): the mean if the two
+  /// differ by less than 1.5 px, else the one whose pixel resembles the pixel between them more, the lower
+  /// one if both do alike; the known one if only one is known. @p guide is that of the row of @p a.
   void (*interpolate_rows)(const SubsampledDisparity* a, const SubsampledDisparity* b, int width,
                            const std::uint8_t* guide, SubsampledDisparity* out);
 

@@ -83,8 +83,8 @@ class Paths {
     return static_cast<std::uint16_t>(V::horizontal_argmin8(minimum));
   }
 
-  // Turns the sums of the paths at a sample into what they add to the next one before the limit P2: the minimum
-  // of the sum of each disparity and of its neighbors plus P1, less the minimum of all.
+  // Turns the sums of the paths at a sample into what they add to the next one before the limit P2: the
+  // minimum of the sum of each disparity and of its neighbors plus P1, less the minimum of all.
   [[gnu::always_inline]] static void carry_on(int vectors, Reg p1, Reg* first, Reg* second) {
     Reg minimum_first = first[0], minimum_second = second[0];
 #pragma GCC unroll 4
