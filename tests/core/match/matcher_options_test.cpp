@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/match/options.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ MatcherOptions changed(const std::function<void(MatcherOptions&)>& change) {
   return options;
 }
 
-/// An option out of its range, and what the sentence about it has to contain.
+/// An option out of its range, and what the sentence about it must contain.
 struct BadOption {
   std::string option;
   std::string found;
@@ -112,7 +113,7 @@ const std::vector<BadOption>& bad_options() {
 
 class ProblemWith : public testing::TestWithParam<BadOption> {};
 
-TEST_P(ProblemWith, NamesTheOptionWhatWasFoundAndWhatIsAllowed) {
+TEST_P(ProblemWith, BadOption_NamesFoundAndAllowed) {
   const BadOption& bad = GetParam();
   const std::optional<std::string> problem = problem_with(changed(bad.change));
   ASSERT_TRUE(problem.has_value());
@@ -127,9 +128,9 @@ INSTANTIATE_TEST_SUITE_P(EveryOption, ProblemWith, testing::ValuesIn(bad_options
   return test.param.option + "_" + std::to_string(test.index);
 });
 
-TEST(MatcherOptions, DefaultsAreFine) { EXPECT_EQ(problem_with(MatcherOptions{}), std::nullopt); }
+TEST(MatcherOptions, Defaults_HaveNoProblem) { EXPECT_EQ(problem_with(MatcherOptions{}), std::nullopt); }
 
-TEST(MatcherOptions, EndsOfEveryRangeAreFine) {
+TEST(MatcherOptions, RangeEnds_HaveNoProblem) {
   const std::vector<std::function<void(MatcherOptions&)>> changes = {
       [](auto& o) { o.min_disparity = 1024; },
       [](auto& o) { o.disparities = 1; },
@@ -175,7 +176,7 @@ void expect_names_come_back(const std::vector<Enum>& values, Parse&& parse) {
   EXPECT_EQ(parse("magic"), std::nullopt);
 }
 
-TEST(MatcherOptions, NamesComeBackAsTheValuesTheyName) {
+TEST(MatcherOptions, Names_ParseToTheirValues) {
   expect_names_come_back<Method>({Method::kBlock, Method::kSemiglobal}, parse_method);
   expect_names_come_back<Grid>({Grid::kCoarse, Grid::kFine}, parse_grid);
   using enum Implementation;
@@ -188,7 +189,7 @@ TEST(MatcherOptions, NamesComeBackAsTheValuesTheyName) {
   expect_names_come_back<Cost>({kSad, kSsd, kMad}, parse_cost);
 }
 
-TEST(MatcherOptions, EveryPresetThatIsListedExistsAndIsFine) {
+TEST(MatcherOptions, EveryPreset_HasNoProblem) {
   std::string list(kMatcherPresets);
   int presets = 0;
   for (std::size_t begin = 0; begin < list.size(); ++presets) {
@@ -204,7 +205,7 @@ TEST(MatcherOptions, EveryPresetThatIsListedExistsAndIsFine) {
   EXPECT_EQ(matcher_preset(""), std::nullopt);
 }
 
-TEST(MatcherOptions, OnlyTheDensePresetFills) {
+TEST(MatcherOptions, Presets_OnlyDenseFills) {
   for (const char* name : {"thesis", "fast", "robust", "fine"}) {
     EXPECT_FALSE(matcher_preset(name)->hole_filling) << name;
   }
@@ -215,7 +216,7 @@ TEST(MatcherOptions, OnlyTheDensePresetFills) {
   EXPECT_EQ(dense, matcher_preset("robust"));
 }
 
-TEST(MatcherOptions, ThesisPresetIsTheThesisMatcher) {
+TEST(MatcherOptions, ThesisPreset_IsThesisMatcher) {
   const MatcherOptions thesis = matcher_preset("thesis").value();
   EXPECT_EQ(thesis.window, 11);
   EXPECT_EQ(thesis.disparities, 64);
@@ -229,7 +230,7 @@ TEST(MatcherOptions, ThesisPresetIsTheThesisMatcher) {
   EXPECT_EQ(thesis.speckle_size, 0);
 }
 
-TEST(MatcherOptions, UnitsFollowFromSubpixel) {
+TEST(MatcherOptions, Units_FollowSubpixel) {
   EXPECT_EQ(changed([](auto& o) { o.subpixel = true; }).units_per_pixel(), 16);
   EXPECT_EQ(changed([](auto& o) { o.subpixel = false; }).units_per_pixel(), 1);
 }
