@@ -223,60 +223,76 @@ bool EpipolarProbe::search(int x, const GrayStats& from, const GrayStats& to, Po
   return 20 * minimum < 7 * patch.contrast && 5 * minimum < 4 * rival && 5 * rival > 3 * patch.contrast;
 }
 
-bool EpipolarProbe::refine(int x, const Position& position, float& across, float& down) const noexcept {
-  constexpr int kInner = (kColumns - 2) * (kRows - 2);
-  float value[kInner], slope_x[kInner], slope_y[kInner];
-  float xx = 0, xy = 0, yy = 0, mean = 0;
+// Copies the inner pixels of the patch at column x of the left strip, less their mean, and their gradients.
+EpipolarProbe::Gradients EpipolarProbe::gradients_at(int x) const noexcept {
+  Gradients g{};
+  float mean = 0;
   int n = 0;
   for (int row = 1; row + 1 < kRows; ++row) {
     for (int i = 1; i + 1 < kColumns; ++i, ++n) {
-      const std::uint8_t* at = left_row(row) + x + i;
-      value[n] = at[0];
-      mean += value[n] / kInner;
-      slope_x[n] = static_cast<float>(at[1] - at[-1]) / 2;
-      slope_y[n] = static_cast<float>(at[stride_] - at[-stride_]) / 2;
-      xx += slope_x[n] * slope_x[n], xy += slope_x[n] * slope_y[n], yy += slope_y[n] * slope_y[n];
+      const std::uint8_t* pixel = left_row(row) + x + i;
+      g.value[n] = pixel[0];
+      mean += g.value[n] / kInner;
+      g.slope_x[n] = static_cast<float>(pixel[1] - pixel[-1]) / 2;
+      g.slope_y[n] = static_cast<float>(pixel[stride_] - pixel[-stride_]) / 2;
+      g.xx += g.slope_x[n] * g.slope_x[n];
+      g.xy += g.slope_x[n] * g.slope_y[n];
+      g.yy += g.slope_y[n] * g.slope_y[n];
     }
   }
-  float deviation = 0;
-  for (float& v : value) v -= mean, deviation += v * v;
-  const float determinant = xx * yy - xy * xy;
-  if (!(determinant > 0.1F * xx * yy) || !(deviation > 0)) return false;  // an edge, no corner
+  for (float& v : g.value) v -= mean, g.deviation += v * v;
+  return g;
+}
+
+// Samples the right strip between pixels, at `position` + (across, down), less the mean of the samples. Returns
+// false if the patch exceeds the strip.
+bool EpipolarProbe::sample_right(const Position& position, float across, float down,
+                                 float* samples) const noexcept {
+  const float fx = std::floor(across), fy = std::floor(down);
+  const int column = position.x + static_cast<int>(fx), line = position.y + static_cast<int>(fy);
+  if (line < 0 || line + kRows >= kRows + 2 * reach_ || column < 0 || column + kColumns >= image_.width) {
+    return false;
+  }
+  const float u = across - fx, v = down - fy;
+  float mean = 0;
+  int n = 0;
+  for (int row = 1; row + 1 < kRows; ++row) {
+    for (int i = 1; i + 1 < kColumns; ++i, ++n) {
+      const std::uint8_t* pixel = right_row(line + row) + column + i;
+      samples[n] = (1 - v) * ((1 - u) * pixel[0] + u * pixel[1]) +
+                   v * ((1 - u) * pixel[stride_] + u * pixel[stride_ + 1]);
+      mean += samples[n] / kInner;
+    }
+  }
+  for (int i = 0; i < kInner; ++i) samples[i] -= mean;
+  return true;
+}
+
+// Refines the match of the patch at column x to fractions of a pixel: (across, down) are added to `position`.
+// Returns false if the patch is an edge, the match moves away, or the two are not similar.
+bool EpipolarProbe::refine(int x, const Position& position, float& across, float& down) const noexcept {
+  const Gradients g = gradients_at(x);
+  const float determinant = g.xx * g.yy - g.xy * g.xy;
+  if (!(determinant > 0.1F * g.xx * g.yy) || !(g.deviation > 0)) return false;  // an edge, no corner
 
   float correlation = 0;
   for (int step = 0; step < 4; ++step) {
-    // Samples the right image between pixels.
-    const float fx = std::floor(across), fy = std::floor(down);
-    const int column = position.x + static_cast<int>(fx), line = position.y + static_cast<int>(fy);
-    if (line < 0 || line + kRows >= kRows + 2 * reach_ || column < 0 || column + kColumns >= image_.width)
-      return false;
-    const float u = across - fx, v = down - fy;
-    float sampled[kInner];
-    float sampled_mean = 0;
-    n = 0;
-    for (int row = 1; row + 1 < kRows; ++row) {
-      for (int i = 1; i + 1 < kColumns; ++i, ++n) {
-        const std::uint8_t* at = right_row(line + row) + column + i;
-        sampled[n] =
-            (1 - v) * ((1 - u) * at[0] + u * at[1]) + v * ((1 - u) * at[stride_] + u * at[stride_ + 1]);
-        sampled_mean += sampled[n] / kInner;
-      }
-    }
-    float sampled_deviation = 0, common = 0;
+    float samples[kInner];
+    if (!sample_right(position, across, down, samples)) return false;
+    float deviation = 0, common = 0;
     for (int i = 0; i < kInner; ++i) {
-      sampled[i] -= sampled_mean;
-      sampled_deviation += sampled[i] * sampled[i], common += sampled[i] * value[i];
+      deviation += samples[i] * samples[i], common += samples[i] * g.value[i];
     }
-    if (!(sampled_deviation > 0)) return false;
-    correlation = common / std::sqrt(sampled_deviation * deviation);
-    const float scale = std::sqrt(deviation / sampled_deviation);
+    if (!(deviation > 0)) return false;
+    correlation = common / std::sqrt(deviation * g.deviation);
+    const float scale = std::sqrt(g.deviation / deviation);
     float right = 0, below = 0;
     for (int i = 0; i < kInner; ++i) {
-      const float error = scale * sampled[i] - value[i];
-      right += slope_x[i] * error, below += slope_y[i] * error;
+      const float error = scale * samples[i] - g.value[i];
+      right += g.slope_x[i] * error, below += g.slope_y[i] * error;
     }
-    const float move_x = -(yy * right - xy * below) / determinant,
-                move_y = -(xx * below - xy * right) / determinant;
+    const float move_x = -(g.yy * right - g.xy * below) / determinant;
+    const float move_y = -(g.xx * below - g.xy * right) / determinant;
     if (std::abs(move_x) < 0.02F && std::abs(move_y) < 0.02F) break;
     across += move_x, down += move_y;
     if (!(std::abs(across) < 1.5F && std::abs(down) < 1.5F)) return false;

@@ -61,6 +61,13 @@ class EpipolarProbe {
     std::uint8_t gray[kUsedRows][kColumns];
     std::uint32_t contrast;  // sum of |difference| from the mean
   };
+  // The inner pixels of a patch less their mean, their gradients, and sums of squares and products of these.
+  static constexpr int kInner = (kColumns - 2) * (kRows - 2);
+  struct Gradients {
+    float value[kInner], slope_x[kInner], slope_y[kInner];
+    float xx, xy, yy;
+    float deviation;  // sum of value²
+  };
   // Gray values of a strip.
   struct GrayStats {
     float mean, deviation;
@@ -74,6 +81,8 @@ class EpipolarProbe {
   std::uint32_t minimum_cost(const Patch& patch, int first, int positions, Position& best) noexcept;
   std::uint32_t rival_cost(int first, int positions, const Position& best) const noexcept;
   bool search(int x, const GrayStats& from, const GrayStats& to, Position& best, bool& absent) noexcept;
+  Gradients gradients_at(int x) const noexcept;
+  bool sample_right(const Position& position, float across, float down, float* samples) const noexcept;
   bool refine(int x, const Position& position, float& across, float& down) const noexcept;
 
   const std::uint8_t* left_row(int row) const { return left_.data() + row * stride_; }
