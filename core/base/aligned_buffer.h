@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Memory for vector code.
 #pragma once
 
@@ -9,8 +10,8 @@
 
 namespace stereod {
 
-/// `size` elements of T that start on a 64-byte boundary (a cache line, and the widest vector used here) and
-/// start as zero. Moves, does not copy. Throws std::bad_alloc.
+/// Owns `size` elements of T, zero after construction, from a 64-byte boundary on (a cache line, and at least
+/// the widest vector used here). Moves, does not copy. The constructor throws std::bad_alloc.
 template <typename T>
 class AlignedBuffer {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -10,11 +10,11 @@
 
 namespace stereod {
 
-/// A table of values and their names, searched in both directions.
+/// A table of values and their names.
 template <typename Enum, std::size_t N>
 using EnumNames = std::array<std::pair<Enum, std::string_view>, N>;
 
-/// Returns the name of @p value, "?" if the table lacks it.
+/// Returns the name of @p value, or "?" if the table lacks it.
 template <typename Enum, std::size_t N>
 constexpr std::string_view find_name(const EnumNames<Enum, N>& names, Enum value) {
   for (const auto& [candidate, name] : names) {
@@ -23,7 +23,7 @@ constexpr std::string_view find_name(const EnumNames<Enum, N>& names, Enum value
   return "?";
 }
 
-/// Returns the value called @p name, nothing if the table lacks it.
+/// Returns the value called @p name, or nullopt if the table lacks it.
 template <typename Enum, std::size_t N>
 constexpr std::optional<Enum> find_value(const EnumNames<Enum, N>& names, std::string_view name) {
   for (const auto& [value, candidate] : names) {

@@ -1,4 +1,5 @@
-// Images in memory: views that borrow and images that own.
+// SPDX-License-Identifier: BSD-3-Clause
+// Images in memory: views that borrow pixels and images that own them.
 #pragma once
 
 #include <algorithm>
@@ -8,41 +9,26 @@
 #include <type_traits>
 
 #include "core/base/aligned_buffer.h"
+#include "core/base/interval.h"
 
 namespace stereod {
 
-/// One pixel of a 24-bit color image, as it lies in memory.
+/// One pixel of a 24-bit color image, in memory order.
 struct Rgb {
   std::uint8_t r, g, b;
   friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 static_assert(sizeof(Rgb) == 3);
 
-/// Width and height in pixels.
+/// Width and height [px].
 struct Size {
   int width = 0;
   int height = 0;
   friend bool operator==(const Size&, const Size&) = default;
 };
 
-/// Rows [first, end) of an image.
-struct RowRange {
-  int first = 0;
-  int end = 0;
-  int count() const { return end - first; }
-  friend bool operator==(const RowRange&, const RowRange&) = default;
-};
-
-/// The rows of `image_height` that band `band` of `bands` equal ones has; the first bands take the remainder.
-inline RowRange band_rows(int image_height, int band, int bands) {
-  const int base = image_height / bands;
-  const int rest = image_height % bands;
-  const int first = band * base + std::min(band, rest);
-  return {first, first + base + (band < rest ? 1 : 0)};
-}
-
-/// A image that belongs to someone else: `height` rows of `width` pixels, `stride` bytes from row to row.
-/// Pixel may be const. Cheap to copy; valid as long as the memory behind it.
+/// Borrows an image: `height` rows of `width` pixels, `stride` bytes from row to row (negative: bottom row
+/// first). Pixel may be const. Cheap to copy; valid as long as the memory that it borrows.
 template <typename Pixel>
 class ImageView {
   using Byte = std::conditional_t<std::is_const_v<Pixel>, const std::byte, std::byte>;
@@ -51,7 +37,7 @@ class ImageView {
   ImageView() = default;
   ImageView(Pixel* data, int width, int height, std::ptrdiff_t stride)
       : data_(reinterpret_cast<Byte*>(data)), width_(width), height_(height), stride_(stride) {}
-  /// A view to change is also a view to read.
+  /// Converts a writable view into a read-only one.
   template <typename Other>
   requires std::is_same_v<const Other, Pixel> ImageView(const ImageView<Other>& other)
       : ImageView(other.row(0), other.width(), other.height(), other.stride()) {}
@@ -74,8 +60,8 @@ class ImageView {
   std::ptrdiff_t stride_ = 0;
 };
 
-/// A image that owns its memory: rows start on 64-byte boundaries and at least 64 readable bytes follow
-/// every row, so that vector code may read past its end. The pixels start as zero.
+/// Owns an image. Rows start on 64-byte boundaries, and at least 64 readable bytes follow every row, so that
+/// vector code may read past its end. All pixels are zero after construction. Moves, does not copy.
 template <typename Pixel>
 class Image {
   static_assert(std::is_trivially_copyable_v<Pixel>);
@@ -121,7 +107,7 @@ using GrayView = ImageView<const std::uint8_t>;
 using GrayImage = Image<std::uint8_t>;
 using ColorImage = Image<Rgb>;
 
-/// Copies pixel by pixel; both have the same size.
+/// Copies all pixels of @p from to @p to, which has the same size.
 template <typename Pixel>
 void copy_pixels(ImageView<const Pixel> from, ImageView<Pixel> to) {
   assert(from.size() == to.size());

@@ -1,5 +1,6 @@
-// Eight 16-bit numbers at a time, in the compiler's own vectors: every CPU here has 16-byte ones, so this is
-// for what runs the same on all of them.
+// SPDX-License-Identifier: BSD-3-Clause
+// Eight 16-bit numbers at a time, in the compiler's own vector types: every supported CPU has 16-byte
+// vectors, so code with these needs no kernel for each instruction set.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ inline I16x8 load_i16x8(const std::int16_t* p) {
   return values;
 }
 
-/// Bytes as 16-bit numbers.
+/// Loads eight bytes as 16-bit numbers.
 inline I16x8 load_i16x8(const std::uint8_t* p) {
   U8x8 bytes;
   std::memcpy(&bytes, p, sizeof(bytes));
@@ -26,7 +27,7 @@ inline I16x8 load_i16x8(const std::uint8_t* p) {
 
 inline void store_i16x8(std::int16_t* p, I16x8 values) { std::memcpy(p, &values, sizeof(values)); }
 
-/// Whether any of them is not 0.
+/// Returns whether any lane differs from 0.
 inline bool any_of(I16x8 values) {
   std::uint64_t halves[2];
   std::memcpy(halves, &values, sizeof(halves));

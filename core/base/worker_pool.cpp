@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/base/worker_pool.h"
 
 #include <stdexcept>
@@ -46,7 +47,7 @@ void WorkerPool::thread_main(int worker) {
   }
 }
 
-// Called and left with the lock held; a job runs without it.
+// Called and left with the lock held; released while a job runs.
 void WorkerPool::take_jobs(int worker, std::unique_lock<std::mutex>& lock) {
   while (next_job_ < jobs_) {
     const int number = next_job_++;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fork and join over std::thread workers.
 #pragma once
 
@@ -10,16 +11,17 @@
 
 namespace stereod {
 
-/// A fixed set of workers. The caller of run() is worker 0 and works too; the others are threads that sleep
-/// between runs. The pool has two states:
-///   (1) idle: every thread waits for the next run to be announced;
-///   (2) running: job numbers are handed out under the lock until none is left, then the last worker to
-///   finish
-///       wakes the caller.
-/// run() allocates nothing. One thread at a time may call it.
+/// A fixed set of workers. The thread that calls run() is worker 0; the others are threads of the pool, which
+/// sleep between runs. The pool has two states:
+///   (1) idle: every thread waits until a run is announced;
+///   (2) running: job numbers are handed out under the lock until all are taken, then the last worker to
+///       finish wakes the caller.
+/// run() allocates nothing. Only one thread at a time may call it.
 class WorkerPool {
  public:
-  /// 1…256 workers, so workers - 1 threads.
+  /// Starts @p workers − 1 threads. @p workers [1…256].
+  /// @throws std::invalid_argument if @p workers is out of range, std::system_error if a thread cannot be
+  /// started.
   explicit WorkerPool(int workers);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
@@ -27,9 +29,9 @@ class WorkerPool {
 
   int workers() const { return static_cast<int>(threads_.size()) + 1; }
 
-  /// Calls job(number, worker) once for each number in [0, jobs), spread over the workers, and returns when
-  /// all are done. The first exception out of a job is rethrown here, after the others have ended; jobs that
-  /// had not begun by then are skipped.
+  /// Calls @p job(number, worker) once for each number in [0, @p jobs), spread over the workers, and returns
+  /// when all calls have returned. If a job throws, jobs not yet begun are skipped, and the first exception
+  /// is rethrown once the running ones have ended.
   template <typename Job>
   void run(int jobs, Job&& job) {
     run_erased(jobs, const_cast<void*>(static_cast<const void*>(&job)),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/geometry/calibration.h"
 
 #include <algorithm>
@@ -33,10 +34,10 @@ void each_number(const CameraCalibration& c, Visit&& visit) {
 
 std::string text(double number) { return significant(number, 10); }
 
-Problem problem_with_range(const std::string& what, double number, double least, double most,
+Problem problem_with_range(const std::string& what, double number, double minimum, double maximum,
                            const std::string& unit) {
-  if (number >= least && number <= most) return std::nullopt;
-  return what + " is " + text(number) + unit + "; allowed is " + text(least) + " to " + text(most);
+  if (number >= minimum && number <= maximum) return std::nullopt;
+  return what + " is " + text(number) + unit + "; allowed is " + text(minimum) + " to " + text(maximum);
 }
 
 Problem problem_with_numbers(const std::string& name, const CameraCalibration& c) {
@@ -74,7 +75,8 @@ Problem problem_with_rows(const RectifiedProjection& left, const RectifiedProjec
   return differ("fx", left.fx, right.fx, "a disparity has no one depth");
 }
 
-// Share of the rectified image's pixels that have a source in the camera's, from every so manieth of them.
+// Returns the share of the pixels of the rectified image that have a source in the camera image, from a
+// sample of them.
 double share_seen(const CameraCalibration& c) {
   constexpr int kSamples = 64;  // across and down
   const Size image = c.camera.image;
@@ -144,7 +146,7 @@ bool is_rotation(const Matrix3& r) {
   for (std::size_t i = 0; i < 9; ++i) {
     if (!(std::abs(product.m[i] - identity.m[i]) <= kTolerance)) return false;
   }
-  return determinant(r) > 0;  // it is +1 or -1 here
+  return determinant(r) > 0;  // is +1 or −1 here
 }
 
 std::optional<std::string> problem_with_view(const Calibration& calibration) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/geometry/camera_model.h"
 
 #include <algorithm>
@@ -46,8 +47,8 @@ Matrix3 rotation_about(const Vector3& v) {
 
 namespace {
 
-// What a tilted sensor does to a image, as a plane's homography: the two rotations, then the projection
-// along the optical axis onto the tilted plane.
+// Returns the homography of a tilted sensor: two rotations, then the projection along the optical axis onto
+// the tilted plane.
 Matrix3 tilt(double tau_x, double tau_y) {
   const double cos_x = std::cos(tau_x), sin_x = std::sin(tau_x);
   const double cos_y = std::cos(tau_y), sin_y = std::sin(tau_y);
@@ -119,10 +120,10 @@ std::optional<Point2> undistort_pinhole(const CameraModel& c, Point2 distorted) 
     if (size(error) < kTolerance) return p;
     const Jacobian j = pinhole_derivative(c, p);
     const double det = j.xx * j.yy - j.xy * j.yx;
-    // The image folds over here, or is turned round by having folded before: no lens does.
+    // Not positive where the model folds the image over, or has folded it before. No lens does.
     if (!(det > 0 && j.xx + j.yy > 0)) return std::nullopt;
     const Point2 move{(j.yy * error.x - j.xy * error.y) / det, (j.xx * error.y - j.yx * error.x) / det};
-    // A whole Newton step may leap over the fold; half of it, and half again, does not.
+    // A whole Newton step may jump over the fold, so it is halved until the error falls.
     double part = 1;
     Point2 next, next_error;
     do {
@@ -134,7 +135,7 @@ std::optional<Point2> undistort_pinhole(const CameraModel& c, Point2 distorted) 
     p = next;
     error = next_error;
   }
-  // Rounding may end the progress a little above the tolerance far outside.
+  // Far outside the image, rounding may stop the progress slightly above the tolerance.
   if (size(error) < kTolerance * (1 + size(distorted))) return p;
   return std::nullopt;
 }
@@ -172,7 +173,7 @@ std::optional<Point2> undistort_fisheye(const CameraModel& c, Point2 distorted) 
       return Point2{distorted.x * scale, distorted.y * scale};
     }
     const double slope = fisheye_slope(c, theta);
-    if (!(slope > 0)) return std::nullopt;  // the image folds over here
+    if (!(slope > 0)) return std::nullopt;  // the model folds the image over
     theta -= error / slope;
     if (!(theta > 0)) return std::nullopt;
   }
@@ -195,7 +196,7 @@ std::optional<Point2> CameraModel::undistort(Point2 distorted) const {
 
 namespace {
 
-// Pointers to the coefficients in OpenCV's order.
+// Returns pointers to the coefficients in OpenCV's order.
 template <typename Camera>
 auto coefficients_of(Camera& c) {
   using Pointer = decltype(&c.k1);
@@ -221,8 +222,8 @@ void set_distortion(CameraModel& camera, std::span<const double> coefficients) {
   CameraModel plain{camera.image, camera.fx, camera.fy, camera.cx, camera.cy};
   plain.lens = camera.lens;
   camera = plain;
-  const auto places = coefficients_of(camera);
-  for (std::size_t i = 0; i < coefficients.size(); ++i) *places[i] = coefficients[i];
+  const auto targets = coefficients_of(camera);
+  for (std::size_t i = 0; i < coefficients.size(); ++i) *targets[i] = coefficients[i];
 }
 
 std::vector<double> distortion_of(const CameraModel& camera) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/geometry/stereo_rectification.h"
 
 #include <algorithm>
@@ -18,17 +19,17 @@ struct Field {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// What a camera's border looks like from the rectified camera.
+// The border of a camera's image, as the rectified camera sees it.
 struct Border {
-  Field inner{-kInfinity, kInfinity, -kInfinity, kInfinity};  // lies within it everywhere
-  Field outer{kInfinity, -kInfinity, kInfinity, -kInfinity};  // lies beyond it everywhere
+  Field inner{-kInfinity, kInfinity, -kInfinity, kInfinity};  // the largest field within it
+  Field outer{kInfinity, -kInfinity, kInfinity, -kInfinity};  // the smallest field around it
 
   void cover(const CameraModel& camera, const Matrix3& rotation) {
-    constexpr int kSteps = 128;  // on a side; it bends by less than 1/100 px between two of them
+    constexpr int kSteps = 128;  // a side; between two of them it bends by less than 1/100 px
     const double last_x = camera.image.width - 1, last_y = camera.image.height - 1;
     const auto direction = [&](double x, double y) -> std::optional<Point2> {
       const auto straight = camera.undistort(camera.from_pixel({x, y}));
-      if (!straight) return std::nullopt;  // looks so far aside that it limits nothing
+      if (!straight) return std::nullopt;  // so far aside that it is no limit
       const Vector3 ray = rotation * Vector3{straight->x, straight->y, 1};
       if (!(ray.z > 0)) return std::nullopt;
       const Point2 p{ray.x / ray.z, ray.y / ray.z};
@@ -46,15 +47,15 @@ struct Border {
   }
 };
 
-// The widest the field may be for a rectified focal length of half the camera's own.
+// Limits a field to that of a rectified focal length of half the camera's own.
 Field limited(const Field& field, const CameraModel& camera) {
   const double reach_x = camera.image.width / camera.fx, reach_y = camera.image.height / camera.fy;
   return {std::max(field.left, -reach_x), std::min(field.right, reach_x), std::max(field.top, -reach_y),
           std::min(field.bottom, reach_y)};
 }
 
-// The projection of square pixels whose image has the field's middle in its own, and is filled by the field,
-// or shows all of it.
+// Returns the projection with square pixels whose image is centered on the field and filled by it, or shows
+// all of it.
 RectifiedProjection projection_of(const Field& field, Size image, bool shows_all) {
   const double across = field.right - field.left, down = field.bottom - field.top;
   if (!(across > 0 && down > 0)) {
@@ -67,15 +68,16 @@ RectifiedProjection projection_of(const Field& field, Size image, bool shows_all
           (image.height - 1) / 2.0 - f * (field.top + field.bottom) / 2};
 }
 
-// What lies between two projections with square pixels: the borders of what they show move in equal steps.
+// Interpolates between two projections with square pixels so that the borders of what they show move in
+// proportion.
 RectifiedProjection between(const RectifiedProjection& a, const RectifiedProjection& b, double part) {
   const auto mixed = [part](double of_a, double of_b) { return of_a + part * (of_b - of_a); };
   const double f = 1 / mixed(1 / a.fx, 1 / b.fx);
   return {f, f, f * mixed(a.cx / a.fx, b.cx / b.fx), f * mixed(a.cy / a.fy, b.cy / b.fy)};
 }
 
-// For cameras and rotations that are set.
-void set_projection(Calibration& c, double zoom) {
+// Sets the projections and the id. Cameras and rotations must be set.
+void set_projection(Calibration& c, double alpha) {
   Border border;
   for (const CameraCalibration* camera : {&c.left, &c.right}) border.cover(camera->camera, camera->rotation);
   for (const CameraCalibration* camera : {&c.left, &c.right}) {
@@ -84,14 +86,14 @@ void set_projection(Calibration& c, double zoom) {
     border.outer = limited(border.outer, camera->camera);
   }
   RectifiedProjection projection = projection_of(border.inner, c.image, false);
-  if (zoom > 0) projection = between(projection, projection_of(border.outer, c.image, true), zoom);
+  if (alpha > 0) projection = between(projection, projection_of(border.outer, c.image, true), alpha);
   c.left.projection = c.right.projection = projection;
   c.id = calibration_id(c);
 }
 
 double length(const Vector3& v) { return std::hypot(v.x, v.y, v.z); }
 
-// The smallest rotation that turns the unit vector `from` into the x axis; from.x > 0.
+// Returns the smallest rotation that turns the unit vector `from` into the x axis; from.x > 0.
 Matrix3 to_x_axis(const Vector3& from) {
   const Vector3 axis{0, from.z, -from.y};  // from × (1, 0, 0)
   const double sine = std::hypot(axis.y, axis.z);
@@ -142,9 +144,9 @@ Calibration rectified_pair(const CameraModel& left, const CameraModel& right, co
   return result;
 }
 
-Calibration with_alpha(const Calibration& calibration, double zoom) {
+Calibration with_alpha(const Calibration& calibration, double alpha) {
   Calibration result = calibration;
-  set_projection(result, zoom);
+  set_projection(result, alpha);
   return result;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/match/band_matcher.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ std::unique_ptr<BandMatcher> make_band_matcher(const MatcherOptions& options, Si
   if (options.implementation == Implementation::kSimd) resolve_isa(options.isa);
   if (options.method == Method::kBlock) return std::make_unique<BlockMatcher>(options, image);
   if (options.implementation == Implementation::kNaive)
-    return make_defined_semiglobal_matcher(options, image);
+    return make_reference_semiglobal_matcher(options, image);
   return std::make_unique<SemiglobalMatcher>(options, image);
 }
 

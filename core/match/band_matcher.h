@@ -1,58 +1,63 @@
-// The seam between a matcher and whoever feeds it: bands of rows go in row by row, disparity rows come out.
+// SPDX-License-Identifier: BSD-3-Clause
+// The interface of a matcher: bands of rows go in row by row, disparity rows come out.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 
+#include "core/base/validity_mask.h"
 #include "core/match/disparity.h"
 #include "core/match/options.h"
-#include "core/rectify/validity_mask.h"
 
 namespace stereod {
 
-/// Matches one band of a rectified pair at a time. Each worker owns one; it holds all scratch memory and
-/// shares nothing. After construction it allocates nothing and throws nothing (but for the naive semi-global
-/// one, which is a definition to compare with).
+/// Matches one band of rows of a rectified pair at a time. Each worker owns one: it holds all scratch memory
+/// and shares nothing. Allocates and throws only during construction, except the reference of the semi-global
+/// matcher, which allocates for each band.
 ///
-/// A band goes like this:
-///   rows = begin({first, end});            the input rows it wants, with the halo above and below
+/// A band is matched as follows:
+///
+///   rows = begin({first, end});            the input rows to write: the band with its halo above and below
 ///   for y in rows:
-///     write the pair's row y to left_row(y) and right_row(y);
-///     final = push(y);                     often empty or one row; at the bottom of the image several
+///     write row y of the pair to left_row(y) and right_row(y);
+///     final = push(y);                     often empty or one row; several at the bottom of the image
 ///     read disparity_row(f) for f in final;
-/// Up to kRowsAhead rows may be written before they are pushed. A band's answer does not depend on where the
-/// image was cut.
+///
+/// Up to kRowsAhead rows may be written before they are pushed. The result does not depend on where the image
+/// was cut into bands. begin() may be called before the band before is complete.
 class BandMatcher {
  public:
   static constexpr int kRowsAhead = 16;
 
   virtual ~BandMatcher() = default;
 
-  /// From the next begin() on, no pixel gets an answer that is not valid in the left mask, or whose match is
-  /// not in the right one. Null: all are. The masks are of the image's size and outlive their use.
+  /// Sets the masks of both images from the next begin() on: a pixel becomes invalid if it has no source in
+  /// the left image, or if its match has none in the right one. Null takes all pixels for valid. The masks
+  /// have the size of the image and must outlive their use.
   virtual void use_masks(const ValidityMask* left, const ValidityMask* right) noexcept = 0;
 
-  /// Starts the band that answers for `rows` (not empty, inside the image) and returns the input rows it
-  /// needs.
+  /// Starts the band of @p rows (not empty, inside the image). Returns the input rows that it needs.
   virtual RowRange begin(RowRange rows) noexcept = 0;
 
-  /// Where to write `width` pixels of input row y.
+  /// Return where to write the `width` pixels of input row @p y.
   virtual std::uint8_t* left_row(int y) noexcept = 0;
   virtual std::uint8_t* right_row(int y) noexcept = 0;
 
-  /// Takes input row y, in order and without gaps; returns the output rows that became final by it. Their
-  /// memory is valid until the next push().
+  /// Takes input row @p y, in order and without gaps. Returns the output rows that became final, which may be
+  /// none.
   virtual RowRange push(int y) noexcept = 0;
+  /// Returns the disparities of row @p y (core/match/disparity.h), one of those that the last push()
+  /// returned. Valid until the next push().
   virtual const std::int16_t* disparity_row(int y) const noexcept = 0;
 
-  /// Bytes of scratch memory it holds.
+  /// Returns the bytes of scratch memory that the matcher holds.
   virtual std::size_t scratch_bytes() const noexcept = 0;
 };
 
-/// The matcher that the options ask for, for images of this size (1 to 32767 pixels a side). Throws
-/// std::invalid_argument with the sentence of problem_with(), or with one that says what the size is, or what
-/// is missing if the CPU lacks the instruction set.
+/// Returns the matcher of @p options for images of size @p image [1…32767 px a side].
+/// @throws std::invalid_argument with the text of problem_with(), or if the size is out of range, or if the
+/// CPU lacks the instruction set.
 std::unique_ptr<BandMatcher> make_band_matcher(const MatcherOptions& options, Size image);
 
 }  // namespace stereod

@@ -1,4 +1,5 @@
-// Matches whole images, cut into one band for each worker.
+// SPDX-License-Identifier: BSD-3-Clause
+// Matches whole images, cut into one band a worker.
 #pragma once
 
 #include <memory>
@@ -11,17 +12,19 @@
 
 namespace stereod {
 
-/// Matches pairs that lie in memory as a whole, as tools and tests have them. match() allocates nothing, but
-/// for the naive semi-global matcher.
+/// Matches pairs that lie in memory as a whole, as tools and tests have them. match() allocates nothing,
+/// except with the reference of the semi-global matcher.
 class FrameMatcher {
  public:
-  /// For images of size `image`. Throws what make_band_matcher() throws. The pool outlives the matcher.
+  /// Allocates a band matcher for each worker of @p pool, which must outlive this object.
+  /// @throws std::invalid_argument as make_band_matcher() does.
   FrameMatcher(const MatcherOptions& options, Size image, WorkerPool& pool);
 
-  /// BandMatcher::use_masks().
+  /// Sets the masks of both images, see BandMatcher::use_masks().
   void use_masks(const ValidityMask* left, const ValidityMask* right) noexcept;
 
-  /// Left and right are rectified and, like `out`, of the size given; `out` gets 1/units_per_pixel() px.
+  /// Matches a rectified pair and writes disparities [1/units_per_pixel() px] to @p out. All three have the
+  /// size given to the constructor. Removes speckles last, if `speckle_size` > 0.
   void match(GrayView left, GrayView right, ImageView<std::int16_t> out);
 
  private:
@@ -31,7 +34,7 @@ class FrameMatcher {
   MatcherOptions options_;
   Size image_;
   WorkerPool& pool_;
-  std::vector<std::unique_ptr<BandMatcher>> matchers_;  // one for each worker
+  std::vector<std::unique_ptr<BandMatcher>> matchers_;  // one a worker
   std::optional<SpeckleFilter> speckle_filter_;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/match/median.h"
 
 #include <array>
@@ -9,7 +10,7 @@
 namespace stereod {
 namespace {
 
-// Pixels done at once, in one vector of the compiler's: every CPU here has 16-byte ones.
+// Pixels of one vector. Every supported CPU has vectors of 16 bytes.
 constexpr int kColumns = 8;
 using Values [[gnu::vector_size(2 * kColumns)]] = std::int16_t;
 static_assert(kColumns + 4 <= kMedianMargin);
@@ -24,7 +25,8 @@ struct Comparator {
   int low, high;
 };
 
-// The comparators that sort N values: Batcher's odd-even merge sort (Knuth, TAOCP 3, 5.2.2, algorithm M).
+// Visits the comparators that sort N values: Batcher's odd-even merge sort (Knuth, TAOCP 3, 5.2.2, algorithm
+// M).
 template <int kN, typename Visit>
 constexpr void visit_comparators(Visit visit) {
   for (int p = 1; p < kN; p += p) {
@@ -52,8 +54,8 @@ constexpr auto sorting_network() {
   return network;
 }
 
-// kColumns pixels from column x on. Invalid pixels sort to the end, so the middle of the v valid ones is at
-// (v − 1) / 2.
+// Filters kColumns pixels from column x on. Invalid pixels sort to the end, so the median of v valid ones is
+// at index (v − 1) / 2.
 template <int kRadius>
 void median_block(const std::int16_t* const* rows, int x, std::int16_t* out) {
   constexpr int kSide = 2 * kRadius + 1;
@@ -78,8 +80,8 @@ void median_block(const std::int16_t* const* rows, int x, std::int16_t* out) {
   }
   Values result = values[0];
 #pragma GCC unroll 25
-  for (int place = 1; place <= (kN - 1) / 2; ++place) {
-    result = valid_count > Values{} + static_cast<std::int16_t>(2 * place) ? values[place] : result;
+  for (int middle = 1; middle <= (kN - 1) / 2; ++middle) {
+    result = valid_count > Values{} + static_cast<std::int16_t>(2 * middle) ? values[middle] : result;
   }
   result = load(rows[kRadius] + x) != invalid ? result : invalid;
   std::memcpy(out + x, &result, sizeof(result));

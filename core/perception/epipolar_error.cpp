@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/perception/epipolar_error.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/perception/ground_plane.h"
 
 #include <algorithm>
@@ -6,8 +7,8 @@
 namespace stereod {
 namespace {
 
-constexpr double kAgrees = 0.5;  // px from the line
-constexpr int kShare = 12;       // a mode has at least 1/kShare of its row's pixels
+constexpr double kTolerance_px = 0.5;  // between a mode and the line
+constexpr int kShare = 12;             // a mode has at least 1/kShare of the pixels of its row
 
 }  // namespace
 
@@ -29,7 +30,7 @@ void GroundFit::add_row(int y, const std::int16_t* disparity) noexcept {
     ++counts_[bin];
     sums_[bin] += disparity[x];
   }
-  // Two neighbors, so that a disparity between whole pixels is not split.
+  // Two neighboring bins, so that a disparity between whole pixels is not split.
   std::size_t best = 0;
   for (std::size_t i = 1; i + 1 < counts_.size(); ++i) {
     if (counts_[i] + counts_[i + 1] > counts_[best] + counts_[best + 1]) best = i;
@@ -49,11 +50,11 @@ std::optional<GroundPlane> GroundFit::finish() noexcept {
   return plane;
 }
 
-bool GroundFit::agrees(const Line& line, const Mode& mode) noexcept {
-  return std::abs(line.at_zero + line.slope * mode.y - mode.disparity_px) <= kAgrees;
+bool GroundFit::supports(const Line& line, const Mode& mode) noexcept {
+  return std::abs(line.at_zero + line.slope * mode.y - mode.disparity_px) <= kTolerance_px;
 }
 
-// A wall, too, is a line; but no possible ground.
+// A wall is a line as well, but its plane is no possible ground.
 GroundFit::Line GroundFit::best_line() const noexcept {
   Line best;
   for (const Mode& one : modes_) {
@@ -64,7 +65,7 @@ GroundFit::Line GroundFit::best_line() const noexcept {
       line.at_zero = one.disparity_px - line.slope * one.y;
       if (!plane_of(line)) continue;
       for (const Mode& mode : modes_) {
-        if (!agrees(line, mode)) continue;
+        if (!supports(line, mode)) continue;
         ++line.rows;
         line.pixels += mode.pixels;
       }
@@ -77,7 +78,7 @@ GroundFit::Line GroundFit::best_line() const noexcept {
 GroundFit::Line GroundFit::refined(const Line& line) const noexcept {
   double n = 0, y = 0, d = 0, yy = 0, yd = 0;
   for (const Mode& mode : modes_) {
-    if (!agrees(line, mode)) continue;
+    if (!supports(line, mode)) continue;
     n += 1;
     y += mode.y;
     d += mode.disparity_px;
@@ -88,7 +89,7 @@ GroundFit::Line GroundFit::refined(const Line& line) const noexcept {
   return {slope, (d - slope * y) / n, line.rows, line.pixels};
 }
 
-// d = f·B / h · ((y − cy) / fy · cos + sin), solved for h and the pitch.
+// Solves d = f·B / h · ((y − cy) / fy · cos + sin) for h and the pitch.
 std::optional<GroundPlane> GroundFit::plane_of(const Line& line) const noexcept {
   const double focal_baseline = camera_.fx * camera_.baseline_m;
   const double cos_by_h = line.slope * camera_.fy / focal_baseline;

@@ -1,4 +1,5 @@
-// The floor found in the disparities themselves.
+// SPDX-License-Identifier: BSD-3-Clause
+// Estimates the ground plane from disparities.
 #pragma once
 
 #include <cstdint>
@@ -9,41 +10,44 @@
 
 namespace stereod {
 
-/// Takes a frame's rows in any order and fits the ground to them: on a plane without roll, disparity grows
-/// linearly from row to row (v-disparity: Labayrade, Aubert and Tarel, 2002). Of each eighth row the most
-/// frequent disparity is taken, and the line through two of them that most others agree with, refined by
-/// least squares. Allocates nothing after its construction.
+/// Fits the ground to the rows of a frame, which may come in any order. On a plane without roll, disparity
+/// grows linearly from row to row (v-disparity: Labayrade, Aubert and Tarel, 2002). Takes the most frequent
+/// disparity of every eighth row, finds the line through two of them that has the most support, and refines
+/// it by least squares. Allocates nothing after construction.
 class GroundFit {
  public:
+  /// Allocates memory for disparity rows of @p camera.
   explicit GroundFit(const ScanGeometry& camera);
 
-  /// See ObstacleScan::add_row().
+  /// Adds row @p y of a frame, see ObstacleScan::add_row().
   void add_row(int y, const std::int16_t* disparity) noexcept;
 
-  /// The ground that the rows since the last finish() show; nothing if fewer than kMinRows agree on one, or
-  /// if the camera would be lower than 2 cm, higher than 5 m, or pitched by more than 0.8 rad.
+  /// Returns the ground that fits the rows added since the last finish(), or nullopt if fewer than kMinRows
+  /// rows support one. A camera height outside 0.02…5 m or a pitch beyond ±0.8 rad is no ground.
   std::optional<GroundPlane> finish() noexcept;
 
   static constexpr int kMinRows = 6;
 
  private:
   static constexpr int kRowStep = 8;
+  // The most frequent disparity of a row.
   struct Mode {
     double y, disparity_px;
     int pixels;
   };
-  struct Line {  // disparity with its offset = at_zero + slope · y
+  // disparity + disparity_offset = at_zero + slope · y
+  struct Line {
     double slope = 0, at_zero = 0;
-    int rows = 0, pixels = 0;  // that agree with it
+    int rows = 0, pixels = 0;  // of the modes within kTolerance_px
   };
 
-  static bool agrees(const Line& line, const Mode& mode) noexcept;
+  static bool supports(const Line& line, const Mode& mode) noexcept;
   Line best_line() const noexcept;
   Line refined(const Line& line) const noexcept;
   std::optional<GroundPlane> plane_of(const Line& line) const noexcept;
 
   const ScanGeometry camera_;
-  std::vector<std::int32_t> counts_, sums_;  // of one row, by whole pixels
+  std::vector<std::int32_t> counts_, sums_;  // of one row, by whole disparities
   std::vector<Mode> modes_;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/perception/obstacle_scan.h"
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 namespace stereod {
 namespace {
 
-constexpr double kMargin = 1;      // px that an obstacle's disparity is above the ground's
-constexpr double kMinSeen = 0.05;  // share of a direction's pixels; less says nothing about it
+constexpr double kMargin_px = 1;   // between the disparities of an obstacle and of the ground
+constexpr double kMinSeen = 0.05;  // share of the pixels of a direction; with less its range is 0
 
 std::int16_t to_units(double px, int units_per_pixel) {
   constexpr double kMax = std::numeric_limits<std::int16_t>::max();
@@ -44,7 +45,7 @@ ObstacleScan::ObstacleScan(const ScanOptions& options, const ScanGeometry& camer
     const double angle = std::atan((camera.cx - x - 0.5) / camera.fx);
     const int group = std::clamp(static_cast<int>((angle - right) / step), 0, options.rays - 1);
     first_bin_[static_cast<std::size_t>(x)] = group * bins_per_group_;
-    RowRange& columns = group_columns_[static_cast<std::size_t>(group)];
+    ColumnRange& columns = group_columns_[static_cast<std::size_t>(group)];
     if (columns.count() == 0) columns.first = x;
     columns.end = x + 1;
   }
@@ -62,13 +63,13 @@ void ObstacleScan::set_ground(const GroundPlane& ground) noexcept {
   for (int y = 0; y < camera_.size.height; ++y) {
     const double down = (y - camera_.cy) / camera_.fy * cos_pitch_ + sin_pitch_;
     const double forward = cos_pitch_ - (y - camera_.cy) / camera_.fy * sin_pitch_;
-    // Disparity at which something this row shows is so high; what goes up from there is higher if the row
-    // looks down, and lower if it looks up.
+    // Returns the disparity of a pixel of this row at that height. Higher disparities are higher above the
+    // ground if the row looks down, and lower if it looks up.
     const auto at_height = [&](double height) { return focal_baseline * down / (h - height); };
     double above = focal_baseline * std::max(forward, 0.0) / options_.max_range_m;
     double below = std::numeric_limits<double>::max();
     if (down > 0) {
-      above = std::max(above, at_height(0) + kMargin);
+      above = std::max(above, at_height(0) + kMargin_px);
       if (options_.min_obstacle_height_m < h)
         above = std::max(above, at_height(options_.min_obstacle_height_m));
       if (options_.min_obstacle_height_m >= h) below = 0;
@@ -77,7 +78,7 @@ void ObstacleScan::set_ground(const GroundPlane& ground) noexcept {
       above = std::max(above, at_height(options_.max_obstacle_height_m));
       if (options_.min_obstacle_height_m > h) below = at_height(options_.min_obstacle_height_m);
     } else {
-      below = 0;  // this row sees only what is above the camera, which can be driven under
+      below = 0;  // the row sees only what is above the camera and can be driven under
     }
     const auto row = static_cast<std::size_t>(y);
     const double offset = camera_.disparity_offset;
@@ -89,7 +90,7 @@ void ObstacleScan::set_ground(const GroundPlane& ground) noexcept {
 
 void ObstacleScan::add_row(int y, const std::int16_t* disparity) noexcept {
   if (y % kRowStep != 0) return;
-  // Copies, because what is stored might lie in the members for all that the compiler knows.
+  // Local copies, because for the compiler a store may alias the members.
   const int width = camera_.size.width, bins_per_group = bins_per_group_, shift = units_shift_;
   const std::int16_t above = above_[static_cast<std::size_t>(y)], below = below_[static_cast<std::size_t>(y)];
   const std::int32_t* const first_bin = first_bin_.data();
@@ -106,7 +107,7 @@ void ObstacleScan::add_row(int y, const std::int16_t* disparity) noexcept {
   for (; x + kI16Lanes <= width; x += kI16Lanes) {
     const I16x8 values = load_i16x8(disparity + x);
     store_i16x8(seen + x, load_i16x8(seen + x) - (values >= I16x8{}));
-    if (any_of((values > above) & (values <= below))) count_from(x, x + kI16Lanes);  // mostly none counts
+    if (any_of((values > above) & (values <= below))) count_from(x, x + kI16Lanes);  // mostly no pixel counts
   }
   count_from(x, width);
   for (; x < width; ++x) seen[x] = static_cast<std::int16_t>(seen[x] + (disparity[x] >= 0 ? 1 : 0));
@@ -117,7 +118,7 @@ const ScanResult& ObstacleScan::finish() noexcept {
   std::fill(result_.support.begin(), result_.support.end(), 0.0F);
   std::fill(result_.range_m.begin(), result_.range_m.end(), static_cast<float>(options_.max_range_m));
   for (int group = 0; group < options_.rays; ++group) {
-    const RowRange columns = group_columns_[static_cast<std::size_t>(group)];
+    const ColumnRange columns = group_columns_[static_cast<std::size_t>(group)];
     int seen = 0;
     for (int x = columns.first; x < columns.end; ++x) seen += seen_[static_cast<std::size_t>(x)];
     if (seen <= kMinSeen * columns.count() * rows_) result_.range_m[static_cast<std::size_t>(group)] = 0;
@@ -135,7 +136,7 @@ const ScanResult& ObstacleScan::finish() noexcept {
 
 bool ObstacleScan::nearest_obstacle(int group, Obstacle& obstacle) noexcept {
   const Bin* bins = bins_.data() + static_cast<std::ptrdiff_t>(group) * bins_per_group_;
-  constexpr int kPixels = kRowStep * kColumnStep;  // that each one looked at stands for
+  constexpr int kPixels = kRowStep * kColumnStep;  // of the image for each pixel read
   const int needed = (options_.min_support + kPixels - 1) / kPixels;
   for (int bin = bins_per_group_ - 1; bin > 0; --bin) {
     const Bin both = bins[bin] + bins[bin - 1];
@@ -149,7 +150,7 @@ bool ObstacleScan::nearest_obstacle(int group, Obstacle& obstacle) noexcept {
   return false;
 }
 
-// A camera that looks down spreads its columns over the ground as a fan wider than its own.
+// Seen from above, the columns of a camera that looks down form a wider fan than its field of view.
 double ObstacleScan::bearing(double x, double y) const noexcept {
   const double forward = cos_pitch_ - (y - camera_.cy) / camera_.fy * sin_pitch_;
   return std::atan2((camera_.cx - x) / camera_.fx, forward);
@@ -162,13 +163,13 @@ int ObstacleScan::ray_at(double bearing_rad) const noexcept {
 }
 
 void ObstacleScan::enter(int group, const Obstacle& obstacle) noexcept {
-  const RowRange columns = group_columns_[static_cast<std::size_t>(group)];
+  const ColumnRange columns = group_columns_[static_cast<std::size_t>(group)];
   const double z = depth_m(camera_.fx, camera_.baseline_m, camera_.disparity_offset, obstacle.disparity_px);
   const double forward = z * (cos_pitch_ - (obstacle.y - camera_.cy) / camera_.fy * sin_pitch_);
   const double across = z * ((columns.first + columns.end) / 2.0 - camera_.cx) / camera_.fx;
   const auto range = static_cast<float>(std::hypot(forward, across));
   if (!(range < static_cast<float>(options_.max_range_m))) return;
-  // Half a pixel in, so that a border between two directions belongs to one.
+  // Half a pixel inward, so that a border between two directions belongs to one of them.
   const int first = std::max(ray_at(bearing(columns.end - 0.5, obstacle.y)), 0);
   const int last = std::min(ray_at(bearing(columns.first + 0.5, obstacle.y)), options_.rays - 1);
   for (int ray = first; ray <= last; ++ray) {
@@ -179,11 +180,11 @@ void ObstacleScan::enter(int group, const Obstacle& obstacle) noexcept {
   }
 }
 
-// What stands within half the width to either side of straight ahead, and whether straight ahead is seen at
-// all.
+// Finds the nearest obstacle within half of stop_width_m to either side, and whether enough of the way ahead
+// is seen.
 void ObstacleScan::look_ahead() noexcept {
   double nearest = options_.max_range_m;
-  int directions = 0, blind = 0;  // of the way ahead
+  int directions = 0, blind = 0;  // ahead
   for (std::size_t i = 0; i < result_.range_m.size(); ++i) {
     const double angle = static_cast<double>(result_.first_rad) +
                          static_cast<double>(i) * static_cast<double>(result_.step_rad);
@@ -196,8 +197,7 @@ void ObstacleScan::look_ahead() noexcept {
       nearest = std::min(nearest, range * std::cos(angle));
     }
   }
-  // What is nearer than any disparity, or has no texture, leaves holes: a quarter of the way is too much to
-  // miss.
+  // Things nearer than the maximum disparity or without texture leave holes.
   const bool too_little = 4 * blind > directions || directions == 0;
   const bool near = nearest < options_.stop_distance_m;
   result_.nearest_m = too_little && !near ? 0 : static_cast<float>(nearest);

@@ -1,5 +1,7 @@
-// The one source of the blending loop, which the compiler turns into vector code. Each file that includes it
-// is compiled for an instruction set and passes a tag of its own, so that the linker keeps them apart.
+// SPDX-License-Identifier: BSD-3-Clause
+// Source of the blending loop, which the compiler turns into vector code. Each file that includes it is
+// compiled for one instruction set and passes a tag of its own, so that the linker keeps the instantiations
+// apart.
 #pragma once
 
 #include "core/rectify/bilinear.h"
@@ -15,9 +17,8 @@ void blend_row(const BlendRow& row, int count, std::uint8_t* __restrict out) {
   const std::uint8_t* __restrict across = row.across;
   const std::uint8_t* __restrict down = row.down;
   for (int i = 0; i < count; ++i) {
-    // 16 bits are enough for all of it, and exact: with t, b the rows' means in 1/128 gray levels, the result
-    // is floor((t/4 + 16 + floor((b − t) · down/128)) / 32), and the inner one is the upper half of a
-    // product.
+    // Exact in 16 bits: with t, b the means of the upper and lower row [1/128 gray levels], the result is
+    // floor((t/4 + 16 + floor((b − t) · down/128)) / 32), and the inner floor is the upper half of a product.
     const auto part = static_cast<std::int16_t>(across[i]);
     const auto top = static_cast<std::int16_t>(128 * top_left[i] + (top_right[i] - top_left[i]) * part);
     const auto bottom =

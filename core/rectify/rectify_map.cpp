@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/rectify/rectify_map.h"
 
 #include <algorithm>
@@ -19,8 +20,8 @@ namespace {
 
 constexpr std::int32_t kOutside = -1;
 constexpr std::ptrdiff_t kColorBytes = 3;
-constexpr int kBlended =
-    256;  // columns that are blended at once: their neighbors fit well in a first-level cache
+// Columns that are blended together: their neighbors fit in a first-level cache.
+constexpr int kBlended = 256;
 
 void check(const SourceLayout& layout) {
   const Size size = layout.size;
@@ -58,9 +59,9 @@ SourceLayout checked(const SourceLayout& layout) {
   return layout;
 }
 
-// Where the stretches end that rows are moved in. What is moved as whole runs may write beyond a stretch:
-// nearest, the last pixels of a row are therefore a stretch that goes to memory of its own first.
-std::vector<int> stretch_ends(int width, Interpolation interpolation) {
+// Returns where the segments end that rows are copied in. Whole runs may write past the end of a segment.
+// kNearest: therefore the last pixels of a row are a segment of their own, which is copied to a buffer first.
+std::vector<int> segment_ends(int width, Interpolation interpolation) {
   std::vector<int> ends;
   if (interpolation == Interpolation::kBilinear) {
     for (int end = kBlended; end < width; end += kBlended) ends.push_back(end);
@@ -79,13 +80,13 @@ std::ptrdiff_t source_bytes(const SourceLayout& layout) {
 
 RunTable empty_table(const SourceLayout& layout, Interpolation interpolation) {
   const int width = layout.size.width;
-  std::ptrdiff_t reach = 0;  // whole runs are only for pixels that lie close together
+  std::ptrdiff_t reach = 0;  // no whole runs of pixels that lie far apart
   if (layout.pixel_stride <= kColorBytes &&
       (width > kRunPixels || interpolation == Interpolation::kBilinear)) {
     reach = kRunPixels * layout.pixel_stride;
     if (interpolation == Interpolation::kBilinear) reach += layout.row_stride + layout.pixel_stride;
   }
-  return {width, stretch_ends(width, interpolation), layout.pixel_stride, reach, source_bytes(layout)};
+  return {width, segment_ends(width, interpolation), layout.pixel_stride, reach, source_bytes(layout)};
 }
 
 }  // namespace
@@ -121,7 +122,7 @@ RectifyMap::RectifyMap(const CameraCalibration& calibration, const SourceLayout&
     throw std::invalid_argument("the calibration is for " + to_string(camera.image) +
                                 " images, the camera delivers " + to_string(layout.size));
   }
-  // From a rectified pixel to a direction of the camera. A rotation's inverse is its transpose.
+  // Turns a rectified pixel into a direction of the camera. The inverse of a rotation is its transpose.
   const Matrix3 to_camera = transposed(calibration.rotation) * inverse_of_projection(calibration.projection);
   fill([&](int x, int y) {
     const Vector3 direction = to_camera * Vector3{static_cast<double>(x), static_cast<double>(y), 1};
@@ -143,32 +144,31 @@ void RectifyMap::fill(SourceOf source_of) {
   std::vector<std::int32_t> offsets(static_cast<std::size_t>(width));
   for (int y = 0; y < layout_.size.height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const Point2 at = source_of(x, y);
+      const Point2 source = source_of(x, y);
       std::int32_t& offset = offsets[static_cast<std::size_t>(x)];
       if (interpolation_ == Interpolation::kNearest) {
-        offset = nearest(at);
+        offset = nearest(source);
       } else {
         const auto pixel =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-        offset = upper_left(at, across_[pixel], down_[pixel]);
+        offset = upper_left(source, across_[pixel], down_[pixel]);
       }
     }
     runs_.append(offsets.data());
   }
 }
 
-std::int32_t RectifyMap::nearest(const Point2& at) const {
-  const double x = std::nearbyint(at.x), y = std::nearbyint(at.y);
-  const bool inside =
-      x >= 0 && x < layout_.size.width && y >= 0 && y < layout_.size.height;  // false for a NaN
+std::int32_t RectifyMap::nearest(const Point2& source) const {
+  const double x = std::nearbyint(source.x), y = std::nearbyint(source.y);
+  const bool inside = x >= 0 && x < layout_.size.width && y >= 0 && y < layout_.size.height;  // false for NaN
   return inside ? offset_to(static_cast<std::ptrdiff_t>(x), static_cast<std::ptrdiff_t>(y)) : kOutside;
 }
 
-std::int32_t RectifyMap::upper_left(const Point2& at, std::uint8_t& across, std::uint8_t& down) const {
-  const double x = std::nearbyint(at.x * kBlendSteps), y = std::nearbyint(at.y * kBlendSteps);
+std::int32_t RectifyMap::upper_left(const Point2& source, std::uint8_t& across, std::uint8_t& down) const {
+  const double x = std::nearbyint(source.x * kBlendSteps), y = std::nearbyint(source.y * kBlendSteps);
   const int last_x = layout_.size.width - 1, last_y = layout_.size.height - 1;
   if (!(x >= 0 && x <= last_x * kBlendSteps && y >= 0 && y <= last_y * kBlendSteps)) return kOutside;
-  // On the last column or row the pixel itself is the right or the lower one of the four.
+  // In the last column or row the pixel itself is the right or lower one of the four.
   const int left = std::min(static_cast<int>(x) / kBlendSteps, std::max(last_x - 1, 0));
   const int top = std::min(static_cast<int>(y) / kBlendSteps, std::max(last_y - 1, 0));
   across = static_cast<std::uint8_t>(4 * (static_cast<int>(x) - left * kBlendSteps));
@@ -180,59 +180,59 @@ std::int32_t RectifyMap::offset_to(std::ptrdiff_t x, std::ptrdiff_t y) const {
   return static_cast<std::int32_t>(y * layout_.row_stride + x * layout_.pixel_stride);
 }
 
-template <typename Mover>
+template <typename Copier>
 void RectifyMap::nearest_row(const std::uint8_t* source, int y, std::uint8_t* out,
-                             const Mover& mover) const noexcept {
+                             const Copier& copier) const noexcept {
   const int width = layout_.size.width;
   const RunTable::Row& row = runs_.row(y);
-  RowMoves<Mover> moves(runs_, row, source, mover);
+  RowCopier<Copier> copies(runs_, row, source, copier);
   if (row.kind == RunTable::Kind::kExactRuns || row.kind == RunTable::Kind::kOffsets) {
-    moves.next(0, width, out);
+    copies.next(0, width, out);
     return;
   }
-  constexpr std::size_t kLast = std::size_t{kRunPixels} * Mover::kBytes;
+  constexpr std::size_t kLast = std::size_t{kRunPixels} * Copier::kBytes;
   std::uint8_t last[2 * kLast];
   const int first = width - kRunPixels;
-  moves.next(0, first, out);
-  moves.next(first, width, last);
-  std::memcpy(out + static_cast<std::ptrdiff_t>(first) * Mover::kBytes, last, kLast);
+  copies.next(0, first, out);
+  copies.next(first, width, last);
+  std::memcpy(out + static_cast<std::ptrdiff_t>(first) * Copier::kBytes, last, kLast);
 }
 
-template <typename Mover>
+template <typename Copier>
 void RectifyMap::blended_row(const std::uint8_t* source, int y, std::uint8_t* out,
-                             const Mover& mover) const noexcept {
+                             const Copier& copier) const noexcept {
   constexpr std::ptrdiff_t kPlane = kBlended + kRunPixels;
   std::uint8_t planes[4 * kPlane];
   const int width = layout_.size.width;
-  RowMoves<FourMover<Mover>> moves(runs_, runs_.row(y), source, {mover, right(), below(), kPlane});
+  RowCopier<BilinearTaps<Copier>> copies(runs_, runs_.row(y), source, {copier, right(), below(), kPlane});
   const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(y) * width;
   for (int first = 0; first < width; first += kBlended) {
     const int end = std::min(first + kBlended, width);
-    moves.next(first, end, planes);
+    copies.next(first, end, planes);
     blend_({planes, planes + kPlane, planes + 2 * kPlane, planes + 3 * kPlane, across_.data() + row + first,
             down_.data() + row + first},
            end - first, out + first);
   }
 }
 
-template <typename Mover>
+template <typename Copier>
 void RectifyMap::row(const std::uint8_t* source, int y, std::uint8_t* out,
-                     const Mover& mover) const noexcept {
+                     const Copier& copier) const noexcept {
   if (interpolation_ == Interpolation::kNearest) {
-    nearest_row(source, y, out, mover);
+    nearest_row(source, y, out, copier);
   } else {
-    blended_row(source, y, out, mover);
+    blended_row(source, y, out, copier);
   }
 }
 
 void RectifyMap::gray_row(const std::uint8_t* source, int y, std::uint8_t* out) const noexcept {
   switch (layout_.pixel_stride) {
     case 1:
-      return row(source, y, out, GrayMover<1>{});
+      return row(source, y, out, PixelCopier<1>{});
     case 2:
-      return row(source, y, out, GrayMover<2>{});
+      return row(source, y, out, PixelCopier<2>{});
     default:
-      return row(source, y, out, SparseMover{layout_.pixel_stride});
+      return row(source, y, out, StridedCopier{layout_.pixel_stride});
   }
 }
 
@@ -246,7 +246,7 @@ void RectifyMap::color_rows(const std::uint8_t* source, RowRange rows, ImageView
   assert(layout_.pixel_stride >= kColorBytes && interpolation_ == Interpolation::kNearest);
   assert(out.size() == size() && rows.first >= 0 && rows.end <= out.height());
   for (int y = rows.first; y < rows.end; ++y) {
-    nearest_row(source, y, reinterpret_cast<std::uint8_t*>(out.row(y)), ColorMover{layout_.pixel_stride});
+    nearest_row(source, y, reinterpret_cast<std::uint8_t*>(out.row(y)), ColorCopier{layout_.pixel_stride});
   }
 }
 

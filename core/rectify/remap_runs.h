@@ -1,4 +1,5 @@
-// Moving the pixels of a row's stretch by the table.
+// SPDX-License-Identifier: BSD-3-Clause
+// Copies the pixels of a row from where the run table says.
 #pragma once
 
 #include <bit>
@@ -9,19 +10,19 @@
 
 namespace stereod {
 
-/// One byte a pixel from bytes kStride apart. A mover says how a run of pixels gets to its place: `whole`
-/// moves kRunPixels of them whatever the run's length, `exact` so many, `nothing` writes zeros.
+/// Copies one byte a pixel, from bytes kStride [1 or 2] apart. A copier has three functions: copy_run()
+/// copies kRunPixels pixels, copy() copies `count` pixels, and clear() writes zeros.
 template <int kStride>
-struct GrayMover {
-  static constexpr int kBytes = 1;                     ///< that a pixel takes where it goes
-  static constexpr int kReach = kStride * kRunPixels;  ///< bytes that `whole` reads
+struct PixelCopier {
+  static constexpr int kBytes = 1;                     ///< of a pixel in the output
+  static constexpr int kReach = kStride * kRunPixels;  ///< bytes that copy_run() reads
   static_assert(kStride == 1 || kStride == 2);
 
-  void whole(const std::uint8_t* from, std::uint8_t* to) const {
+  void copy_run(const std::uint8_t* from, std::uint8_t* to) const {
     if constexpr (kStride == 1) {
       std::memcpy(to, from, kRunPixels);
     } else {
-      // The lower bytes of 16-bit words: compilers know a few vector instructions for that.
+      // The lower bytes of 16-bit words, which compilers turn into a few vector instructions.
       static_assert(std::endian::native == std::endian::little);
       std::uint16_t words[kRunPixels];
       std::uint8_t bytes[kRunPixels];
@@ -30,78 +31,78 @@ struct GrayMover {
       std::memcpy(to, bytes, sizeof(bytes));
     }
   }
-  void exact(const std::uint8_t* from, std::uint8_t* to, int count) const {
+  void copy(const std::uint8_t* from, std::uint8_t* to, int count) const {
     for (int i = 0; i < count; ++i) to[i] = from[kStride * i];
   }
-  void nothing(std::uint8_t* to, int count) const { std::memset(to, 0, static_cast<std::size_t>(count)); }
-  void nothing(std::uint8_t* to) const { std::memset(to, 0, kRunPixels); }
+  void clear(std::uint8_t* to, int count) const { std::memset(to, 0, static_cast<std::size_t>(count)); }
+  void clear(std::uint8_t* to) const { std::memset(to, 0, kRunPixels); }
 };
 
-/// The same for bytes any distance apart.
-struct SparseMover {
+/// Copies one byte a pixel, from bytes any distance apart.
+struct StridedCopier {
   static constexpr int kBytes = 1;
   std::ptrdiff_t stride;
 
-  void whole(const std::uint8_t* from, std::uint8_t* to) const { exact(from, to, kRunPixels); }
-  void exact(const std::uint8_t* from, std::uint8_t* to, int count) const {
+  void copy_run(const std::uint8_t* from, std::uint8_t* to) const { copy(from, to, kRunPixels); }
+  void copy(const std::uint8_t* from, std::uint8_t* to, int count) const {
     for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = from[stride * i];
   }
-  void nothing(std::uint8_t* to, int count) const { std::memset(to, 0, static_cast<std::size_t>(count)); }
-  void nothing(std::uint8_t* to) const { std::memset(to, 0, kRunPixels); }
+  void clear(std::uint8_t* to, int count) const { std::memset(to, 0, static_cast<std::size_t>(count)); }
+  void clear(std::uint8_t* to) const { std::memset(to, 0, kRunPixels); }
 };
 
-/// Three bytes a pixel, from pixels `stride` ≥ 3 bytes apart; whole runs only of pixels that touch.
-struct ColorMover {
+/// Copies three bytes a pixel, from pixels `stride` [≥ 3] bytes apart. copy_run() requires a stride of 3.
+struct ColorCopier {
   static constexpr int kBytes = 3;
   static constexpr int kReach = kBytes * kRunPixels;
   std::ptrdiff_t stride;
 
-  void whole(const std::uint8_t* from, std::uint8_t* to) const { std::memcpy(to, from, kReach); }
-  void exact(const std::uint8_t* from, std::uint8_t* to, int count) const {
+  void copy_run(const std::uint8_t* from, std::uint8_t* to) const { std::memcpy(to, from, kReach); }
+  void copy(const std::uint8_t* from, std::uint8_t* to, int count) const {
     for (int i = 0; i < count; ++i, from += stride, to += kBytes) std::memcpy(to, from, kBytes);
   }
-  void nothing(std::uint8_t* to, int count) const {
+  void clear(std::uint8_t* to, int count) const {
     std::memset(to, 0, static_cast<std::size_t>(count) * kBytes);
   }
-  void nothing(std::uint8_t* to) const { std::memset(to, 0, kReach); }
+  void clear(std::uint8_t* to) const { std::memset(to, 0, kReach); }
 };
 
-/// The four pixels around a point, each into a plane of its own: itself, the one to the right, the one below,
-/// and below that one's right.
-template <typename Mover>
-struct FourMover {
-  static constexpr int kBytes = Mover::kBytes;
-  Mover one;
-  std::ptrdiff_t right, below;  ///< how many bytes further they lie
-  std::ptrdiff_t plane;         ///< from plane to plane
+/// Copies the four neighbors of points between pixels, each into a plane of its own: upper left, upper right,
+/// lower left, lower right.
+template <typename Copier>
+struct BilinearTaps {
+  static constexpr int kBytes = Copier::kBytes;
+  Copier copier;
+  std::ptrdiff_t right, below;  ///< [bytes] from a pixel to its right and to its lower neighbor
+  std::ptrdiff_t plane;         ///< [bytes] from plane to plane
 
-  void whole(const std::uint8_t* from, std::uint8_t* to) const {
-    one.whole(from, to);
-    one.whole(from + right, to + plane);
-    one.whole(from + below, to + 2 * plane);
-    one.whole(from + below + right, to + 3 * plane);
+  void copy_run(const std::uint8_t* from, std::uint8_t* to) const {
+    copier.copy_run(from, to);
+    copier.copy_run(from + right, to + plane);
+    copier.copy_run(from + below, to + 2 * plane);
+    copier.copy_run(from + below + right, to + 3 * plane);
   }
-  void exact(const std::uint8_t* from, std::uint8_t* to, int count) const {
-    one.exact(from, to, count);
-    one.exact(from + right, to + plane, count);
-    one.exact(from + below, to + 2 * plane, count);
-    one.exact(from + below + right, to + 3 * plane, count);
+  void copy(const std::uint8_t* from, std::uint8_t* to, int count) const {
+    copier.copy(from, to, count);
+    copier.copy(from + right, to + plane, count);
+    copier.copy(from + below, to + 2 * plane, count);
+    copier.copy(from + below + right, to + 3 * plane, count);
   }
-  void nothing(std::uint8_t* to, int count) const {
-    for (int i = 0; i < 4; ++i) one.nothing(to + i * plane, count);
+  void clear(std::uint8_t* to, int count) const {
+    for (int i = 0; i < 4; ++i) copier.clear(to + i * plane, count);
   }
-  void nothing(std::uint8_t* to) const {
-    for (int i = 0; i < 4; ++i) one.nothing(to + i * plane);
+  void clear(std::uint8_t* to) const {
+    for (int i = 0; i < 4; ++i) copier.clear(to + i * plane);
   }
 };
 
-/// Goes along a row, stretch by stretch. Rows of whole runs write up to kRunPixels − 1 pixels beyond a
-/// stretch.
-template <typename Mover>
-class RowMoves {
+/// Copies a row segment by segment. Rows of whole runs write up to kRunPixels − 1 pixels past the end of a
+/// segment.
+template <typename Copier>
+class RowCopier {
  public:
-  RowMoves(const RunTable& table, const RunTable::Row& row, const std::uint8_t* source, const Mover& mover)
-      : source_(source), mover_(mover), kind_(row.kind) {
+  RowCopier(const RunTable& table, const RunTable::Row& row, const std::uint8_t* source, const Copier& copier)
+      : source_(source), copier_(copier), kind_(row.kind) {
     if (kind_ == RunTable::Kind::kOffsets) {
       offset_ = table.offsets(row);
     } else {
@@ -109,45 +110,45 @@ class RowMoves {
     }
   }
 
-  /// Moves the stretch [first, end) to `to`.
+  /// Copies the segment [@p first, @p end) to @p to. Segments follow one another.
   void next(int first, int end, std::uint8_t* to) {
-    std::uint8_t* const base = to - static_cast<std::ptrdiff_t>(first) * Mover::kBytes;
+    std::uint8_t* const base = to - static_cast<std::ptrdiff_t>(first) * Copier::kBytes;
     switch (kind_) {
       case RunTable::Kind::kWholeRuns:
-        for (; run_->first < end; ++run_) mover_.whole(source_ + run_->source, place(base));
+        for (; run_->first < end; ++run_) copier_.copy_run(source_ + run_->source, position(base));
         break;
       case RunTable::Kind::kWholeRunsOrNone:
         for (; run_->first < end; ++run_) {
           if (run_->source < 0) {
-            mover_.nothing(place(base));
+            copier_.clear(position(base));
           } else {
-            mover_.whole(source_ + run_->source, place(base));
+            copier_.copy_run(source_ + run_->source, position(base));
           }
         }
         break;
       case RunTable::Kind::kExactRuns:
-        for (; run_->first < end; ++run_) pixels(run_->source, place(base), run_->count);
+        for (; run_->first < end; ++run_) copy_or_clear(run_->source, position(base), run_->count);
         break;
       case RunTable::Kind::kOffsets:
-        for (int x = first; x < end; ++x, to += Mover::kBytes) pixels(*offset_++, to, 1);
+        for (int x = first; x < end; ++x, to += Copier::kBytes) copy_or_clear(*offset_++, to, 1);
         break;
     }
   }
 
  private:
-  std::uint8_t* place(std::uint8_t* base) const {
-    return base + static_cast<std::ptrdiff_t>(run_->first) * Mover::kBytes;
+  std::uint8_t* position(std::uint8_t* base) const {
+    return base + static_cast<std::ptrdiff_t>(run_->first) * Copier::kBytes;
   }
-  void pixels(std::int32_t from, std::uint8_t* to, int count) const {
+  void copy_or_clear(std::int32_t from, std::uint8_t* to, int count) const {
     if (from < 0) {
-      mover_.nothing(to, count);
+      copier_.clear(to, count);
     } else {
-      mover_.exact(source_ + from, to, count);
+      copier_.copy(source_ + from, to, count);
     }
   }
 
   const std::uint8_t* source_;
-  Mover mover_;
+  Copier copier_;
   RunTable::Kind kind_;
   const Run* run_ = nullptr;
   const std::int32_t* offset_ = nullptr;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/rectify/run_table.h"
 
 #include <algorithm>
@@ -21,9 +22,9 @@ void RunTable::append(const std::int32_t* offsets) {
     if (x == *end) ++end;
     const std::int32_t source = offsets[x];
     const std::ptrdiff_t step = source < 0 ? 0 : pixel_stride_;
-    const int most = std::min(kRunPixels, *end - x);
+    const int max_count = std::min(kRunPixels, *end - x);
     int count = 1;
-    while (count < most && offsets[x + count] == source + count * step) ++count;
+    while (count < max_count && offsets[x + count] == source + count * step) ++count;
     holes = holes || source < 0;
     reaches_beyond = reaches_beyond || source + reach_ > source_bytes_;
     runs_.push_back({source, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(count)});
@@ -41,9 +42,9 @@ void RunTable::append(const std::int32_t* offsets) {
 }
 
 std::int32_t RunTable::offset(int x, int y) const {
-  const Row& at = row(y);
-  if (at.kind == Kind::kOffsets) return offsets(at)[x];
-  const Run* run = runs(at);
+  const Row& entry = row(y);
+  if (entry.kind == Kind::kOffsets) return offsets(entry)[x];
+  const Run* run = runs(entry);
   while (run[1].first <= x) ++run;
   if (run->source < 0) return run->source;
   return run->source + static_cast<std::int32_t>((x - run->first) * pixel_stride_);

@@ -1,4 +1,5 @@
-// Which pixels of a image are moved where, so that many can be moved at once.
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the pixels of an image come from, as runs that are copied at once.
 #pragma once
 
 #include <cstddef>
@@ -9,25 +10,25 @@
 
 namespace stereod {
 
-/// Pixels [first, first + count) of a row whose sources lie one pixel after the other, at most kRunPixels of
-/// them. Rectification moves pixels in such runs: a lens moves its neighbors together, until the distances
-/// have grown by half a pixel or the row of the source changes.
+/// Pixels [first, first + count) of a row, count ≤ kRunPixels, whose sources lie side by side. A lens moves
+/// neighboring pixels together until the distance has changed by half a pixel or the row of the source
+/// changes.
 struct Run {
-  std::int32_t source;  ///< of the first pixel: bytes from the source's first one; below 0: there is none
+  std::int32_t source;  ///< [bytes from the first byte of the source] of the first pixel; below 0: no source
   std::uint16_t first;
   std::uint16_t count;
 };
 inline constexpr int kRunPixels = 16;
 
-/// For each row, the runs it is made of; 8 bytes a run. A row with more runs than half its pixels is kept as
-/// one offset a pixel: that is smaller then, and faster.
+/// The runs of each row, 8 bytes a run. A row with more runs than half its pixels is stored as one offset a
+/// pixel, which is smaller and faster then.
 class RunTable {
  public:
-  /// How a row is moved.
+  /// How a row is copied.
   enum class Kind : std::uint8_t {
-    kWholeRuns,        ///< kRunPixels at once, for every run; the next run overwrites what was too much
-    kWholeRunsOrNone,  ///< the same, but some runs have no source
-    kExactRuns,        ///< not a byte more than the run has: the row takes from the end of the source
+    kWholeRuns,        ///< kRunPixels pixels for every run; the next run overwrites the excess
+    kWholeRunsOrNone,  ///< the same, with runs that have no source
+    kExactRuns,        ///< exactly the pixels of each run: the row reads near the end of the source
     kOffsets,          ///< each pixel for itself
   };
   struct Row {
@@ -35,23 +36,23 @@ class RunTable {
     Kind kind;
   };
 
-  /// For rows of `width` ≤ kMaxWidth pixels. No run goes across one of `ends`: the columns, growing, the last
-  /// one being `width`, where a stretch of the row ends that is moved for itself. Whole runs are read only
-  /// where the source has at least `reach` bytes from the run's first pixel on, of `source_bytes`; a reach of
-  /// 0 means that they never are.
+  /// Makes an empty table for rows of @p width [1…kMaxWidth px]. @p ends are the columns, ascending, the last
+  /// one @p width, where a segment ends that is copied by itself; no run crosses them. Whole runs are used
+  /// only where the source has @p reach bytes from the first pixel of the run on, of @p source_bytes; never
+  /// if @p reach is 0.
   RunTable(int width, std::vector<int> ends, std::ptrdiff_t pixel_stride, std::ptrdiff_t reach,
            std::ptrdiff_t source_bytes);
   static constexpr int kMaxWidth = 65'535;
 
-  /// Appends a row: where each of its pixels comes from, below 0 for none.
+  /// Appends a row, from the source of each of its `width` pixels [bytes; below 0: none].
   void append(const std::int32_t* offsets);
 
   const Row& row(int y) const { return rows_[static_cast<std::size_t>(y)]; }
-  /// The row's first run; after its last one comes one that begins at the row's width.
+  /// Returns the first run of @p row; the last run is followed by one that begins at the width.
   const Run* runs(const Row& row) const { return runs_.data() + row.begin; }
   const std::int32_t* offsets(const Row& row) const { return offsets_.data() + row.begin; }
 
-  /// Where a pixel comes from, below 0 for nowhere.
+  /// Returns the source of pixel (@p x, @p y) [bytes; below 0: none]. Searches the row.
   std::int32_t offset(int x, int y) const;
 
   std::size_t bytes() const;

@@ -1,4 +1,5 @@
-// Which frames of two free-running cameras belong together.
+// SPDX-License-Identifier: BSD-3-Clause
+// Pairs the frames of two free-running cameras.
 #pragma once
 
 #include <cstdint>
@@ -14,33 +15,33 @@ constexpr Side opposite(Side side) { return side == Side::kLeft ? Side::kRight :
 template <typename Frame>
 struct FramePair {
   Frame left, right;
-  std::int64_t left_ns = 0, right_ns = 0;  ///< when they were captured
+  std::int64_t left_ns = 0, right_ns = 0;  ///< capture times
   std::int64_t skew_ns() const { return right_ns - left_ns; }
 };
 
-/// What became of the frames.
+/// Numbers of pairs and dropped frames.
 struct PairingCounts {
-  std::int64_t pairs = 0;                 ///< made, whether or not they were taken in time
-  std::int64_t pairs_superseded = 0;      ///< not taken before a newer pair was there
-  std::int64_t left_without_partner = 0;  ///< no right frame was near enough in time
-  std::int64_t right_without_partner = 0;
-  std::int64_t frames_before_time_jump = 0;  ///< dropped because a camera's clock went backwards
+  std::int64_t pairs = 0;                    ///< made, taken or not
+  std::int64_t pairs_superseded = 0;         ///< replaced by a newer pair before they were taken
+  std::int64_t left_without_partner = 0;     ///< left frames without a right frame within the tolerance
+  std::int64_t right_without_partner = 0;    ///< right frames without a left frame within the tolerance
+  std::int64_t frames_before_time_jump = 0;  ///< dropped because the timestamps of a camera went backwards
 };
 
-/// Pairs frames by nearest time, newest first. It holds at most one frame of each camera that waits for a
-/// partner and one pair that waits to be taken; whatever else there is is dropped at once and counted, so
-/// nothing ever queues up. Frame is movable (a lease on a buffer, say); dropping one destroys it.
+/// Pairs frames by nearest capture time, newest first. Holds at most one frame of each camera that waits for
+/// a partner, and one pair that waits to be taken; drops and counts all others at once, so that nothing
+/// queues up. Frame is movable (for example a lease on a buffer); dropping a frame destroys it.
 ///
-/// A frame is paired with the waiting one of the other camera if they are within the tolerance. If instead it
-/// is nearer to a member of the pair not yet taken than that member's partner is, it takes the partner's
-/// place. With a tolerance of half a frame time the first rule alone already finds the nearest.
+/// A frame is paired with the waiting frame of the other camera if they are within the tolerance. Else, if it
+/// is nearer to a member of the pair not yet taken than that member's partner is, it replaces the partner.
+/// With a tolerance of half a frame period the first rule alone finds the nearest frame.
 template <typename Frame>
 class Pairing {
  public:
-  /// `tolerance_ns`: the largest difference of capture times within a pair.
+  /// @p tolerance_ns: maximum difference of the capture times of a pair.
   explicit Pairing(std::int64_t tolerance_ns) : tolerance_ns_(tolerance_ns) {}
 
-  /// Takes a frame of one camera, captured at `time_ns`.
+  /// Adds a frame of one camera, captured at @p time_ns.
   void add(Side side, Frame frame, std::int64_t time_ns) {
     notice_time_jump(side, time_ns);
     Waiting& own = waiting(side);
@@ -51,9 +52,9 @@ class Pairing {
     } else if (is_nearer_than_partner(side, time_ns)) {
       replace_partner(side, std::move(frame), time_ns);
     } else if (other && other->time_ns > time_ns) {
-      count_without_partner(side);  // every later frame of the other camera is even later
+      count_without_partner(side);  // later frames of the other camera are even later
     } else {
-      if (other) drop(opposite(side));  // every later frame of this camera is even later
+      if (other) drop(opposite(side));  // later frames of this camera are even later
       if (own) drop(side);
       own.emplace(Stamped{std::move(frame), time_ns});
     }
@@ -61,17 +62,17 @@ class Pairing {
 
   void set_tolerance_ns(std::int64_t tolerance_ns) { tolerance_ns_ = tolerance_ns; }
 
-  /// Drops the frame of one camera that waits for a partner: that camera has stopped.
+  /// Drops the frame of one camera that waits for a partner, because that camera has stopped.
   void forget_waiting(Side side) {
     if (waiting(side)) drop(side);
   }
 
   bool has_pair() const { return ready_.has_value(); }
 
-  /// The newest pair, if there is one that was not taken yet.
+  /// Returns the newest pair, unless it was taken before.
   std::optional<FramePair<Frame>> take() { return std::exchange(ready_, std::nullopt); }
 
-  /// Drops every frame it holds.
+  /// Drops all frames.
   void clear() {
     left_.reset();
     right_.reset();

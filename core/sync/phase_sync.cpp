@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/sync/phase_sync.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 namespace stereod {
 namespace {
 
-// The remainder nearest to zero: in [-period / 2, period / 2).
+// Returns the remainder in [−period / 2, period / 2).
 std::int64_t wrapped(std::int64_t time_ns, std::int64_t period_ns) {
   std::int64_t rest = time_ns % period_ns;
   if (rest < -period_ns / 2) rest += period_ns;
@@ -52,7 +53,7 @@ std::optional<std::int64_t> PhaseSync::period_of(const Camera& camera) const noe
   return period > 0 ? std::optional(period) : std::nullopt;
 }
 
-// Cameras of different rates have no phase.
+// Returns the period of both cameras, or nullopt if it differs: cameras of different rates have no phase.
 std::optional<std::int64_t> PhaseSync::common_period() const noexcept {
   const auto left = period_of(left_), right = period_of(right_);
   if (!left || !right || std::abs(*left - *right) > *left / 50) return std::nullopt;
@@ -67,15 +68,15 @@ void PhaseSync::measure(std::int64_t time_ns) noexcept {
   const std::int64_t ahead = wrapped(time_ns - of(opposite(to_restart_)).last_ns, *period);
   skews_[skew_count_++] = to_restart_ == Side::kRight ? ahead : -ahead;
   if (skew_count_ < kSamples) return;
-  // Near half a frame the sign is chance, so the samples are taken relative to the first of them.
+  // Near half a period the sign is random, so samples are taken relative to the first one.
   const std::int64_t first = skews_[0];
   for (std::int64_t& skew : skews_) skew = wrapped(skew - first, *period);
   skew_count_ = 0;
   skew_ns_ = wrapped(first + median(skews_), *period);
-  judge(*skew_ns_, *period, time_ns);
+  evaluate(*skew_ns_, *period, time_ns);
 }
 
-// One has changed its rate: what was reached holds no more.
+// Forgets the phase, after a camera has changed its rate.
 void PhaseSync::lose_phase() noexcept {
   forget_samples();
   skew_ns_.reset();
@@ -83,7 +84,7 @@ void PhaseSync::lose_phase() noexcept {
   if (state_ != PhaseSyncState::kRestarting) state_ = PhaseSyncState::kWaiting;
 }
 
-void PhaseSync::judge(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t now_ns) noexcept {
+void PhaseSync::evaluate(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t now_ns) noexcept {
   if (!options_.enabled) {
     state_ = PhaseSyncState::kOff;
     return;
@@ -107,15 +108,15 @@ void PhaseSync::judge(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t
     unmoved_ = 0;
     skew_before_restart_ns_.reset();
   }
-  want_restart(skew_ns, period_ns, now_ns);
+  request_restart(skew_ns, period_ns, now_ns);
 }
 
-void PhaseSync::want_restart(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t now_ns) noexcept {
+void PhaseSync::request_restart(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t now_ns) noexcept {
   if (skew_before_restart_ns_) {
     const bool moved = std::abs(wrapped(skew_ns - *skew_before_restart_ns_, period_ns)) > period_ns / 50;
     unmoved_ = moved ? 0 : unmoved_ + 1;
   }
-  if (tries_ >= options_.tries || unmoved_ >= kUnmoved) {
+  if (tries_ >= options_.tries || unmoved_ >= kMaxUnmoved) {
     state_ = PhaseSyncState::kGivenUp;
     last_restart_ns_ = now_ns;
     return;

@@ -1,4 +1,5 @@
-// Bringing two free-running cameras to expose at the same time.
+// SPDX-License-Identifier: BSD-3-Clause
+// Makes two free-running cameras expose at the same time.
 #pragma once
 
 #include <array>
@@ -14,51 +15,57 @@ struct PhaseSyncOptions {
   bool enabled = true;
   bool realign = false;  ///< also after they have drifted apart
   std::int64_t target_ns = 3'000'000;
-  int tries = 8;  ///< restarts in a row before it gives up
+  int tries = 8;  ///< restarts in a row until kGivenUp
 };
 
 enum class PhaseSyncState {
-  kOff,      ///< not wanted; the skew is measured all the same
+  kOff,      ///< disabled; the skew is measured nevertheless
   kWaiting,  ///< for frames of both cameras
   kMeasuring,
-  kRestarting,  ///< a camera is to be restarted, or was and has given no frame yet
+  kRestarting,  ///< a camera must be restarted, or was restarted and has delivered no frame yet
   kAligned,
-  kDrifted,  ///< was aligned, is not any more, and may not be restarted (yet)
-  kGivenUp,  ///< could not be aligned
+  kDrifted,  ///< no longer aligned, and restarts are not allowed (yet)
+  kGivenUp,  ///< alignment failed
 };
 
-/// Two webcams of the same rate start with a random phase, and neither can be told when to expose. What can
-/// be done is to start one of them again. This decides when, by the time stamps alone: it knows no clock and
-/// no device. It measures the skew as a median of frames; if that is above the target it asks for a restart
-/// of one camera, the one that came last (the right one at first, so that a camera that was not disturbed
-/// never is).
+/// Decides, from frame timestamps alone, when to restart a camera so that both expose at the same time. Knows
+/// no clock and no device.
 ///
-/// A camera whose first frame comes a fixed time after its start is aligned with the second restart: that
-/// time is learnt, and the restart is put where the first frame falls on the other camera's. For one that
-/// takes a random time, each restart is another throw. One whose exposure runs on while its stream is stopped
-/// comes back with the same skew each time; after three of those it gives up at once.
+/// Two webcams of the same rate start with a random phase, and neither can be told when to expose, but a
+/// restart changes the phase. PhaseSync measures the skew as a median over frames. If it exceeds the target,
+/// it asks for a restart of the camera that came last (at first the right one), so that a camera that was not
+/// disturbed is never restarted.
 ///
-/// Once aligned, the cameras' crystals let them drift apart. The skew is watched, and when it exceeds twice
-/// the target they are aligned again, if `realign` allows it, but not more than once in half a minute.
+///   * A camera whose first frame comes a fixed time after its start is aligned by the second restart: the
+///     first one measures that time, the second one is placed so that the first frame coincides with one of
+///     the other camera.
+///   * For a camera whose start takes a random time each restart is a new try, at most `tries` in a row.
+///   * A camera whose exposure keeps its phase while the stream is stopped comes back with the same skew.
+///     After three such restarts the state is kGivenUp at once.
+///
+/// Aligned cameras drift apart, because their crystals differ. When the skew exceeds twice the target and
+/// `realign` allows it, they are aligned again, at most once in 30 s; after kGivenUp at most once in 10 min.
 class PhaseSync {
  public:
   explicit PhaseSync(const PhaseSyncOptions& options) : options_(options) {}
 
-  /// A frame of one camera; times of one camera ascend.
+  /// Adds a frame of one camera, captured at @p time_ns. Times of one camera ascend.
   void add(Side side, std::int64_t time_ns) noexcept;
 
-  /// A camera has stopped; what was measured counts no more.
+  /// Says that a camera has stopped: forgets all measurements.
   void interrupted(Side side) noexcept;
 
-  /// The camera that has to be restarted now, if any.
+  /// Returns the camera to restart now, if any.
   std::optional<Side> restart_wanted() const noexcept;
-  /// When that camera should be started, if it can be from `ready_ns` on: within one frame time after it.
+  /// Returns when to start that camera, at most one frame period after @p ready_ns, the earliest time
+  /// possible.
   std::int64_t best_start(std::int64_t ready_ns) const noexcept;
-  /// A camera's stream was started at this time, wanted or not.
+  /// Says that the stream of a camera was started at @p at_ns, on request or not.
   void started(Side side, std::int64_t at_ns) noexcept;
 
   PhaseSyncState state() const noexcept { return state_; }
-  /// Right minus left of the latest measurement, within half a frame; nothing before the first one.
+  /// Returns the latest skew, right − left timestamp, within half a frame period; nullopt before the first
+  /// measurement.
   std::optional<std::int64_t> skew_ns() const noexcept { return skew_ns_; }
   std::int64_t restarts() const noexcept { return restarts_; }
 
@@ -66,15 +73,15 @@ class PhaseSync {
   static constexpr std::size_t kSamples = 15;
   static constexpr std::int64_t kRealignPause = 30'000'000'000;
   static constexpr std::int64_t kRetryPause = 600'000'000'000;  // after giving up
-  static constexpr int kUnmoved = 3;
-  static constexpr std::int64_t kTogether = 5'000'000'000;
+  static constexpr int kMaxUnmoved = 3;                     // restarts in a row that leave the skew as it was
+  static constexpr std::int64_t kTogether = 5'000'000'000;  // starts within this time count as simultaneous
 
   struct Camera {
     std::int64_t last_ns = 0;
     bool seen = false;
     std::array<std::int64_t, kSamples> intervals{};
     std::size_t count = 0;
-    std::optional<std::int64_t> started_ns;  // until its first frame
+    std::optional<std::int64_t> started_ns;  // reset by the first frame
     std::optional<std::int64_t> latency_ns;  // from the start to the first frame
     std::optional<std::int64_t> came_ns;     // started, but not by a restart
   };
@@ -84,8 +91,8 @@ class PhaseSync {
   std::optional<std::int64_t> period_of(const Camera& camera) const noexcept;
   std::optional<std::int64_t> common_period() const noexcept;
   void measure(std::int64_t time_ns) noexcept;
-  void judge(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t now_ns) noexcept;
-  void want_restart(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t now_ns) noexcept;
+  void evaluate(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t now_ns) noexcept;
+  void request_restart(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t now_ns) noexcept;
   void forget_samples() noexcept;
   void lose_phase() noexcept;
 

@@ -10,9 +10,6 @@
 
 namespace stereod {
 
-/// Columns [first, end) of an image.
-using ColumnRange = RowRange;
-
 /// Pixel (u, v) of what is published is pixel (left + u·decimation_x, top + v·decimation_y) of the rectified
 /// image.
 struct PublishedPixels {

@@ -51,7 +51,7 @@ same_dependencies() {
 kernel_chosen() {
   local expected
   expected=$(sed -n 's/^set(STEREOD_EXPECTED_ISA \([a-z0-9]*\)).*/\1/p' "toolchain/$arch.cmake")
-  if grep -qE 'Isa\.TheChosenOneIsTheOneExpectedOfThisCpu \.* +Passed' "$logs/$arch-tests.log"; then
+  if grep -qE 'Isa\.Auto_IsExpectedForCpu \.* +Passed' "$logs/$arch-tests.log"; then
     echo "$expected"
   else
     echo "not $expected"

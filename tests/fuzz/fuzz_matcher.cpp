@@ -1,4 +1,5 @@
-// libFuzzer's entry: whatever the bytes mean, all implementations of the matcher agree.
+// SPDX-License-Identifier: BSD-3-Clause
+// Entry of libFuzzer: all implementations of the matcher agree on any input.
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/fuzz/matcher_input.h"
 
 #include <algorithm>
@@ -13,21 +14,21 @@ namespace {
 
 constexpr int kMaxColumns = 96;
 constexpr int kMaxRows = 40;
-constexpr double kMaxWork = 8e6;  // differences of the naive implementation: some milliseconds
+constexpr double kMaxWork = 8e6;  // differences of the naive implementation: a few milliseconds
 
-/// Takes numbers from the front of the bytes; zeros after the end.
+/// Takes numbers from the front of the bytes; zeros past the end.
 class Bytes {
  public:
   explicit Bytes(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
   int byte() { return at_ < bytes_.size() ? bytes_[at_++] : 0; }
-  /// A number in [least, most].
-  int between(int least, int most) {
+  /// Returns a number in [@p minimum, @p maximum].
+  int between(int minimum, int maximum) {
     const int high = byte();
-    return least + (high * 256 + byte()) % (most - least + 1);
+    return minimum + (high * 256 + byte()) % (maximum - minimum + 1);
   }
-  /// 0 as often as not, else a number in [1, most].
-  int off_or_up_to(int most) { return byte() % 2 == 0 ? 0 : between(1, most); }
+  /// Returns 0 in half of the cases, else a number in [1, @p maximum].
+  int off_or_up_to(int maximum) { return byte() % 2 == 0 ? 0 : between(1, maximum); }
   std::span<const std::uint8_t> rest() const { return bytes_.subspan(at_); }
 
  private:
@@ -68,7 +69,8 @@ MatcherOptions options_of(Bytes& bytes) {
   return o;
 }
 
-/// No mask as often as not; else single pixels, or all beyond a column, have no source.
+/// Returns no mask in half of the cases; else one in which single pixels, or all past a column, have no
+/// source.
 std::optional<ValidityMask> mask_of(Bytes& bytes, Size size) {
   const int kind = bytes.byte() % 4;
   const int number = bytes.byte();
@@ -81,7 +83,7 @@ std::optional<ValidityMask> mask_of(Bytes& bytes, Size size) {
 
 const ValidityMask* pointer_to(const std::optional<ValidityMask>& mask) { return mask ? &*mask : nullptr; }
 
-/// How the bytes become pixels: alone, too many bytes would be needed before anything looks like a surface.
+/// Turns bytes into pixels. Raw bytes alone would rarely look like a surface.
 StereoPair pair_of(Bytes& bytes, Size size) {
   const int kind = bytes.byte() % 4;
   const auto content = static_cast<std::size_t>(bytes.byte()) % kAllContents.size();
@@ -99,7 +101,7 @@ StereoPair pair_of(Bytes& bytes, Size size) {
   }
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
-      // 1: images that have nothing to do with each other; 2: the same, shifted; 3: shifted, and brighter.
+      // 1: unrelated images; 2: equal, shifted; 3: shifted and brighter.
       if (kind == 1 || x < shift) {
         pair.left.at(x, y) = pixel(at++);
       } else {
@@ -118,8 +120,8 @@ DisparityImage match_frame(const MatcherInput& input, const MatcherOptions& opti
   return found;
 }
 
-/// By one BandMatcher, band after band, so that each finds what the band before left in its memory. The bands
-/// are matched from the bottom, an order in which nothing that was left happens to be right.
+/// Matches all bands with one BandMatcher, so that each finds the memory that the band before left. Bands are
+/// matched from the bottom up, an order in which stale memory is never right by chance.
 DisparityImage match_bands(const MatcherInput& input, const MatcherOptions& options) {
   const StereoPair& pair = input.pair;
   DisparityImage found(pair.left.size());
@@ -181,7 +183,7 @@ std::optional<MatcherInput> matcher_input(std::span<const std::uint8_t> data) {
   const double columns = std::max(0, size.width - window + 1);
   const double rows = std::max(0, size.height - window + 1);
   const double disparities = std::min<double>(input.options.disparities, columns);
-  // The semi-global definition does about so much for every pixel and disparity.
+  // The approximate work of the semi-global reference for each pixel and disparity.
   constexpr double kSemiglobalWork = 20;
   const double work = input.options.method == Method::kBlock
                           ? columns * rows * disparities * window * window
@@ -208,7 +210,7 @@ std::optional<std::string> disagreement_on(const MatcherInput& input) {
       if (!same) return complaint(input, options, std::to_string(workers) + " workers", same);
     }
   }
-  // Speckle removal needs the whole image; a band's matcher leaves it to whoever has that.
+  // Speckle removal needs the whole image, so a band matcher does not do it.
   MatcherOptions banded = input.options;
   banded.speckle_size = 0;
   naive.speckle_size = 0;

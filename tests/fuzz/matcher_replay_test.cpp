@@ -1,4 +1,5 @@
-// The fuzz target's check on inputs that are the same every time, where there is no libFuzzer.
+// SPDX-License-Identifier: BSD-3-Clause
+// The check of the fuzz target on fixed inputs, for builds without libFuzzer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +17,7 @@ std::vector<std::uint8_t> made_up_bytes(std::uint64_t seed) {
   return bytes;
 }
 
-TEST(MatcherFuzzReplay, AllImplementationsAgreeOnMadeUpInputs) {
+TEST(MatcherFuzzReplay, RandomBytes_AllAgree) {
   constexpr std::uint64_t kInputs = kSanitized ? 150 : 600;
   constexpr int kFailuresShown = 5;
   int used = 0;
@@ -35,7 +36,7 @@ TEST(MatcherFuzzReplay, AllImplementationsAgreeOnMadeUpInputs) {
   EXPECT_GT(used, static_cast<int>(kInputs) / 2) << "too many inputs are dropped as too slow";
 }
 
-TEST(MatcherFuzzReplay, BytesReachEveryOption) {
+TEST(MatcherFuzzReplay, Bytes_ReachEveryOption) {
   int prefilters = 0;
   int medians = 0;
   int speckles = 0;
@@ -62,7 +63,7 @@ TEST(MatcherFuzzReplay, BytesReachEveryOption) {
   EXPECT_GT(surfaces, 3);
 }
 
-TEST(MatcherFuzzReplay, NoBytesAreTheSmallestInput) {
+TEST(MatcherFuzzReplay, NoBytes_SmallestInput) {
   const std::optional<MatcherInput> input = matcher_input({});
   ASSERT_TRUE(input);
   EXPECT_EQ(input->pair.left.size(), (Size{1, 1}));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/allocation_counter.h"
 
 #include <atomic>
@@ -14,7 +15,7 @@
 namespace stereod {
 namespace {
 
-// Constant-initialized, because the first allocations come before any constructor runs.
+// Constant-initialized, because the first allocations precede all constructors.
 constinit std::atomic<std::uint64_t> allocations{0};
 
 }  // namespace
@@ -29,8 +30,8 @@ std::uint64_t AllocationCounter::count() const { return allocations.load() - at_
 
 #if STEREOD_COUNTS_ALLOCATIONS
 
-// glibc lets a program bring its own malloc ("Replacing malloc" in its manual); these count and pass on to
-// glibc's own by their internal names.
+// glibc lets a program replace malloc ("Replacing malloc" in its manual). These functions count and call
+// those of glibc by their internal names.
 extern "C" {
 
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)

@@ -1,21 +1,22 @@
-// Counts the memory that a program asks for, to hold the code that promises to allocate nothing to its word.
+// SPDX-License-Identifier: BSD-3-Clause
+// Counts allocations, for tests of code that promises to allocate nothing.
 #pragma once
 
 #include <cstdint>
 
 namespace stereod {
 
-/// Counts from its construction every allocation of every thread: malloc and its relatives, so operator new
-/// too. Linking allocation_counter.cpp replaces them for the whole program (glibc only; under a sanitizer the
-/// sanitizer has replaced them already, and nothing is counted).
+/// Counts the allocations of all threads from its construction on: malloc and its relatives, and so operator
+/// new. Linking allocation_counter.cpp replaces them for the whole program. Only with glibc and without
+/// sanitizers, which replace them too.
 class AllocationCounter {
  public:
   AllocationCounter();
 
-  /// Whether this build counts at all. A test that finds it does not skips, and says so.
+  /// Returns whether this build counts allocations. Tests skip otherwise.
   static bool supported();
 
-  /// Allocations since the construction; 0 where not supported.
+  /// Returns the allocations since the construction; 0 if not supported.
   std::uint64_t count() const;
 
  private:

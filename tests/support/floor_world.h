@@ -1,4 +1,5 @@
-// A floor with posts on it, as exact disparities: what an obstacle scan is tested with.
+// SPDX-License-Identifier: BSD-3-Clause
+// Exact disparities of a floor with posts, for tests of the obstacle scan.
 #pragma once
 
 #include <cmath>
@@ -10,7 +11,7 @@
 
 namespace stereod {
 
-/// An upright board that faces the camera, in meters over the ground: `forward` from the camera and `left` of
+/// An upright board that faces the camera [m over the ground], `forward` of the camera and to the `left` of
 /// it.
 struct Post {
   double forward, left, half_width, bottom, top;
@@ -28,7 +29,8 @@ inline ScanGeometry floor_camera(Size size = {320, 240}) {
   return camera;
 }
 
-/// What the camera sees, rounded to units; kInvalidDisparity above the horizon and beyond the camera's range.
+/// Returns what the camera sees, rounded to units; kInvalidDisparity above the horizon and beyond the range
+/// of disparities.
 inline DisparityImage floor_disparity(const ScanGeometry& camera, const GroundPlane& ground,
                                       const std::vector<Post>& posts) {
   DisparityImage image(camera.size);
@@ -40,11 +42,12 @@ inline DisparityImage floor_disparity(const ScanGeometry& camera, const GroundPl
       const double left = (camera.cx - x) / camera.fx;
       double z = down > 0 ? ground.height_m / down : std::numeric_limits<double>::infinity();
       for (const Post& post : posts) {
-        const double at = post.forward / forward;
-        const double height = ground.height_m - at * down;
-        if (std::abs(at * left - post.left) > post.half_width || height < post.bottom || height > post.top)
+        const double post_z = post.forward / forward;
+        const double height = ground.height_m - post_z * down;
+        if (std::abs(post_z * left - post.left) > post.half_width || height < post.bottom ||
+            height > post.top)
           continue;
-        z = std::min(z, at);
+        z = std::min(z, post_z);
       }
       const double px = camera.fx * camera.baseline_m / z - camera.disparity_offset;
       const bool seen =
@@ -56,7 +59,7 @@ inline DisparityImage floor_disparity(const ScanGeometry& camera, const GroundPl
   return image;
 }
 
-/// The scan of a whole image.
+/// Returns the scan of a whole image.
 inline ScanResult scan_of(ObstacleScan& scan, const DisparityImage& image) {
   for (int y = 0; y < image.height(); ++y) scan.add_row(y, image.row(y));
   return scan.finish();

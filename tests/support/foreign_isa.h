@@ -1,4 +1,5 @@
-// An instruction set that the CPU the tests run on cannot have.
+// SPDX-License-Identifier: BSD-3-Clause
+// An instruction set that the CPU of the tests lacks.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 namespace stereod {
 
-/// Its name in the configuration: that of another family of CPUs.
+/// Returns the configuration name of an instruction set of another CPU family.
 inline std::string foreign_isa() {
   const std::vector<Isa> isas = available_isas();
   return std::find(isas.begin(), isas.end(), Isa::kNeon) == isas.end() ? "neon" : "ssse3";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/matcher_cases.h"
 
 #include <map>
@@ -14,10 +15,10 @@ namespace {
 constexpr std::int16_t kGuard = 0x5a5a;
 constexpr int kGuardWidth = 3;
 
-/// The pixels of an image and not a byte more, one byte off alignment.
-class TightPicture {
+/// A copy of an image without padding, one byte off alignment.
+class TightImage {
  public:
-  explicit TightPicture(const GrayImage& image)
+  explicit TightImage(const GrayImage& image)
       : size_(image.size()),
         bytes_(1 + static_cast<std::size_t>(size_.width) * static_cast<std::size_t>(size_.height)) {
     copy_pixels(image.view(), {bytes_.data() + 1, size_.width, size_.height, size_.width});
@@ -29,10 +30,10 @@ class TightPicture {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Room for an answer with guard values before, between and after the rows.
-class GuardedAnswer {
+/// Memory for disparities, with guard values before, between and after the rows.
+class GuardedDisparities {
  public:
-  explicit GuardedAnswer(Size size)
+  explicit GuardedDisparities(Size size)
       : size_(size),
         stride_(static_cast<std::size_t>(size.width + kGuardWidth)),
         values_(kGuardWidth + stride_ * static_cast<std::size_t>(size.height), kGuard) {}
@@ -66,7 +67,7 @@ const std::vector<Isa>& isas_that_run() {
         make_band_matcher(options, {64, 48});
         isas.push_back(isa);
       } catch (const std::invalid_argument&) {
-        continue;  // not on this CPU, or not in this build
+        continue;  // missing in this CPU or this build
       }
     }
     return isas;
@@ -82,7 +83,7 @@ std::vector<MatcherOptions> implementations_of(const MatcherOptions& options) {
     all.back().isa = isa;
   };
   add(Implementation::kNaive, Isa::kAuto);
-  if (options.cost != Cost::kSad) return all;  // the others know only this one
+  if (options.cost != Cost::kSad) return all;  // the others support only kSad
   if (options.method == Method::kSemiglobal) {
     for (const Isa isa : isas_that_run()) add(Implementation::kSimd, isa);
     return all;
@@ -141,17 +142,17 @@ testing::AssertionResult same_disparities(const DisparityImage& oracle, Disparit
 
 testing::AssertionResult agrees(const DisparityImage& oracle, const StereoPair& pair,
                                 const StereoPair& before, const MatcherOptions& options, int workers) {
-  const TightPicture left(pair.left);
-  const TightPicture right(pair.right);
-  GuardedAnswer answer(oracle.size());
+  const TightImage left(pair.left);
+  const TightImage right(pair.right);
+  GuardedDisparities disparities(oracle.size());
   FrameMatcher matcher(options, oracle.size(), pool_of(workers));
-  if (!before.left.empty()) matcher.match(before.left.view(), before.right.view(), answer.view());
-  matcher.match(left.view(), right.view(), answer.view());
-  if (!answer.guards_are_whole()) {
+  if (!before.left.empty()) matcher.match(before.left.view(), before.right.view(), disparities.view());
+  matcher.match(left.view(), right.view(), disparities.view());
+  if (!disparities.guards_are_whole()) {
     return testing::AssertionFailure()
-           << "wrote outside the answer: " << describe(options) << ", " << workers << " workers";
+           << "wrote outside the disparity image: " << describe(options) << ", " << workers << " workers";
   }
-  testing::AssertionResult result = same_disparities(oracle, answer.view());
+  testing::AssertionResult result = same_disparities(oracle, disparities.view());
   if (!result) result << "\n  " << describe(options) << ", " << workers << " workers";
   return result;
 }

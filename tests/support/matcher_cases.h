@@ -1,4 +1,5 @@
-// What the tests that hold the matcher to its oracle have in common.
+// SPDX-License-Identifier: BSD-3-Clause
+// Shared by the tests that compare the matchers with their oracle.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,24 +15,24 @@
 
 namespace stereod {
 
-/// The instruction sets that this build has kernels for and this CPU can run.
+/// Returns the instruction sets that this build has kernels for and this CPU can run, and kAuto.
 const std::vector<Isa>& isas_that_run();
 
-/// The same options for each implementation and instruction set that has to give the same answer.
+/// Returns @p options for each implementation and instruction set that must give the same result.
 std::vector<MatcherOptions> implementations_of(const MatcherOptions& options);
 
-/// All options in one line.
+/// Returns all options in one line.
 std::string describe(const MatcherOptions& options);
 
-/// A pool with this many workers, made once and kept.
+/// Returns a pool of @p workers workers, which lives until the program ends.
 WorkerPool& pool_of(int workers);
 
-/// Whether the two are equal; if not, the first pixel that differs and how many do.
+/// Succeeds if both are equal; else names the first pixel that differs and the number of such pixels.
 testing::AssertionResult same_disparities(const DisparityImage& oracle, DisparityView matched);
 
-/// Matches `pair` with a matcher that has matched `before` already (unless that is empty) and compares with
-/// `oracle`. The images lie in memory without padding, at odd addresses, and the answer between guard
-/// values, so a read or write outside them is found.
+/// Matches @p pair with a matcher that has matched @p before first (unless that is empty) and compares the
+/// result with @p oracle. The images lie in memory without padding, at odd addresses, and the result between
+/// guard values, so that accesses outside are detected.
 testing::AssertionResult agrees(const DisparityImage& oracle, const StereoPair& pair,
                                 const StereoPair& before, const MatcherOptions& options, int workers);
 

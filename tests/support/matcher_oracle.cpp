@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/matcher_oracle.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace stereod {
 namespace {
 
-/// What the search at one pixel found (section 2).
+/// The result of the search at one pixel (section 2).
 struct Search {
   std::vector<std::int64_t> costs;  ///< C(k) for k in [0, n)
   int winner = 0;
@@ -20,7 +21,7 @@ struct Search {
   std::int64_t winning_cost() const { return cost(winner); }
 };
 
-/// One image row; nothing where a pixel has no answer.
+/// One image row; nullopt where a pixel has no disparity.
 using SearchedRow = std::vector<std::optional<Search>>;
 
 int radius_of(const MatcherOptions& options) { return (options.window - 1) / 2; }
@@ -67,7 +68,7 @@ std::optional<Search> search(const Image<int>& left, const Image<int>& right, in
   return found;
 }
 
-/// numerator / denominator (> 0) to the nearest integer, halves away from zero.
+/// Returns @p numerator / @p denominator [> 0], rounded to the nearest integer, halves away from zero.
 std::int64_t rounded_quotient(std::int64_t numerator, std::int64_t denominator) {
   const std::int64_t size = (2 * std::abs(numerator) + denominator) / (2 * denominator);
   return numerator < 0 ? -size : size;
@@ -110,25 +111,25 @@ bool fails_uniqueness(const Search& found, const MatcherOptions& options) {
   return false;
 }
 
-/// Section 4, `left_right_max_diff`: looks through the whole row for the claim that stands.
+/// Section 4, `left_right_max_diff`: searches the whole row for the best match.
 bool fails_left_right(const SearchedRow& row, int x, const MatcherOptions& options) {
   if (options.left_right_max_diff < 0) return false;
   const Search& mine = *row[static_cast<std::size_t>(x)];
   const int right_pixel = x - options.min_disparity - mine.winner;
-  const Search* standing = nullptr;
+  const Search* best = nullptr;
   for (int other_x = 0; other_x < static_cast<int>(row.size()); ++other_x) {
     const std::optional<Search>& other = row[static_cast<std::size_t>(other_x)];
     if (!other || other_x - options.min_disparity - other->winner != right_pixel) continue;
-    if (standing == nullptr || other->winning_cost() < standing->winning_cost()) standing = &*other;
+    if (best == nullptr || other->winning_cost() < best->winning_cost()) best = &*other;
   }
-  return std::abs(standing->winner - mine.winner) > options.left_right_max_diff;
+  return std::abs(best->winner - mine.winner) > options.left_right_max_diff;
 }
 
 }  // namespace
 
-Image<int> oracle_prefilter(GrayView picture, const MatcherOptions& options) {
-  const int width = picture.width();
-  const int height = picture.height();
+Image<int> oracle_prefilter(GrayView image, const MatcherOptions& options) {
+  const int width = image.width();
+  const int height = image.height();
   Image<int> result(width, height);
   const auto mirrored = [height](int y) {
     if (height == 1) return 0;
@@ -139,7 +140,7 @@ Image<int> oracle_prefilter(GrayView picture, const MatcherOptions& options) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       if (options.prefilter == Prefilter::kNone) {
-        result.at(x, y) = picture.at(x, y);
+        result.at(x, y) = image.at(x, y);
         continue;
       }
       const int cap = options.prefilter_cap;
@@ -147,7 +148,7 @@ Image<int> oracle_prefilter(GrayView picture, const MatcherOptions& options) {
         result.at(x, y) = cap;
         continue;
       }
-      const auto s = [&](int v) { return picture.at(x + 1, mirrored(v)) - picture.at(x - 1, mirrored(v)); };
+      const auto s = [&](int v) { return image.at(x + 1, mirrored(v)) - image.at(x - 1, mirrored(v)); };
       const int g = s(y - 1) + 2 * s(y) + s(y + 1);
       result.at(x, y) = std::clamp(g, -cap, cap) + cap;
     }
@@ -193,7 +194,7 @@ DisparityImage oracle_speckle(const DisparityImage& disparities, int speckle_siz
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       if (visited.at(x, y) || disparities.at(x, y) == kInvalidDisparity) continue;
-      // The list grows while it is walked: at the end it is the whole region.
+      // The list grows during the iteration, until it holds the whole region.
       std::vector<Point> region = {{x, y}};
       visited.at(x, y) = 1;
       for (std::size_t i = 0; i < region.size(); ++i) {
@@ -216,9 +217,9 @@ DisparityImage oracle_speckle(const DisparityImage& disparities, int speckle_siz
   return result;
 }
 
-DisparityImage oracle_match(GrayView left_picture, GrayView right_picture, const MatcherOptions& options) {
-  const Image<int> left = oracle_prefilter(left_picture, options);
-  const Image<int> right = oracle_prefilter(right_picture, options);
+DisparityImage oracle_match(GrayView left_image, GrayView right_image, const MatcherOptions& options) {
+  const Image<int> left = oracle_prefilter(left_image, options);
+  const Image<int> right = oracle_prefilter(right_image, options);
   DisparityImage result(left.size());
   for (int y = 0; y < left.height(); ++y) {
     SearchedRow row;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/random_images.h"
 
 #include <algorithm>
@@ -6,9 +7,9 @@
 namespace stereod {
 namespace {
 
-/// Every pixel becomes pixel_of(x, y).
+/// Returns the image of the pixels @p pixel_of(x, y).
 template <typename PixelOf>
-GrayImage picture(Size size, PixelOf&& pixel_of) {
+GrayImage make_image(Size size, PixelOf&& pixel_of) {
   GrayImage image(size);
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) image.at(x, y) = static_cast<std::uint8_t>(pixel_of(x, y));
@@ -17,12 +18,12 @@ GrayImage picture(Size size, PixelOf&& pixel_of) {
 }
 
 GrayImage noise(Size size, Random& random) {
-  return picture(size, [&](int, int) { return random.between(0, 255); });
+  return make_image(size, [&](int, int) { return random.between(0, 255); });
 }
 
-/// The mean over a (2·radius + 1)² square, cut at the border.
+/// Returns the mean over the (2·radius + 1)² square around each pixel, clipped at the border.
 GrayImage blurred(const GrayImage& image, int radius) {
-  return picture(image.size(), [&](int x, int y) {
+  return make_image(image.size(), [&](int x, int y) {
     int sum = 0;
     int count = 0;
     for (int v = std::max(0, y - radius); v <= std::min(image.height() - 1, y + radius); ++v) {
@@ -41,7 +42,7 @@ StereoPair slanted_pair(Size size, Random& random) {
   const int slope_x = random.between(-8, 8);
   const int slope_y = random.between(-8, 8);
   GrayImage right = blurred(noise(size, random), random.between(0, 1));
-  GrayImage left = picture(size, [&](int x, int y) {
+  GrayImage left = make_image(size, [&](int x, int y) {
     const int source = x * kUnits - std::max(0, start + slope_x * x + slope_y * y);
     const int column = source >= 0 ? source / kUnits : -1;
     if (column < 0 || column + 1 >= size.width) return random.between(0, 255);
@@ -58,24 +59,26 @@ StereoPair two_levels(Size size, Random& random) {
   const int high = std::min(255, low + random.between(1, 12));
   const int rarity = random.between(2, 9);
   const auto one = [&] {
-    return picture(size, [&](int, int) { return random.one_in(rarity) ? high : low; });
+    return make_image(size, [&](int, int) { return random.one_in(rarity) ? high : low; });
   };
   GrayImage left = one();
   return {std::move(left), one()};
 }
 
 StereoPair extremes(Size size, Random& random) {
-  const auto flat = [&](int gray) { return picture(size, [&](int, int) { return gray; }); };
-  // Bars two columns wide have the largest gradient in every column; half a period apart, the largest cost.
+  const auto flat = [&](int gray) { return make_image(size, [&](int, int) { return gray; }); };
+  // Bars two columns wide have the maximum gradient in every column, and half a period apart the maximum
+  // cost.
   const auto bars = [&](int phase) {
-    return picture(size, [&](int x, int) { return (x + phase) / 2 % 2 * 255; });
+    return make_image(size, [&](int x, int) { return (x + phase) / 2 % 2 * 255; });
   };
   const auto binary_noise = [&] {
-    return picture(size, [&](int, int) { return random.between(0, 1) * 255; });
+    return make_image(size, [&](int, int) { return random.between(0, 1) * 255; });
   };
-  // A ramp has the same gradient everywhere; against one the other way every disparity costs almost the most.
+  // A ramp has the same gradient everywhere; against a descending one every disparity has almost the maximum
+  // cost.
   const auto ramp = [&](int first, int slope, int rarity) {
-    return picture(size, [&, first, slope, rarity](int x, int) {
+    return make_image(size, [&, first, slope, rarity](int x, int) {
       return random.one_in(rarity) ? random.between(0, 255) : std::clamp(first + slope * x, 0, 255);
     });
   };
@@ -86,9 +89,9 @@ StereoPair extremes(Size size, Random& random) {
       return {flat(0), flat(255)};
     case 2:
       return {bars(0), bars(2)};
-    case 3: {  // almost the largest cost everywhere: the true minimum is one of the large sums
+    case 3: {  // almost the maximum cost everywhere: the minimum is a large sum too
       const int rarity = random.between(10, 200);
-      return {flat(255), picture(size, [&](int, int) { return random.one_in(rarity) ? 255 : 0; })};
+      return {flat(255), make_image(size, [&](int, int) { return random.one_in(rarity) ? 255 : 0; })};
     }
     case 4: {
       const int slope = random.between(1, 8);
@@ -112,9 +115,9 @@ std::uint64_t Random::next() {
   return z ^ (z >> 31U);
 }
 
-int Random::between(int least, int most) {
-  const auto choices = static_cast<std::uint64_t>(most - least) + 1;
-  return least + static_cast<int>(next() % choices);
+int Random::between(int minimum, int maximum) {
+  const auto choices = static_cast<std::uint64_t>(maximum - minimum) + 1;
+  return minimum + static_cast<int>(next() % choices);
 }
 
 std::string_view name_of(Content content) {
@@ -152,7 +155,8 @@ StereoPair random_pair(Content content, Size size, std::uint64_t seed) {
     case Content::kConstant: {
       const int left = random.between(0, 255);
       const int right = random.between(0, 255);
-      return {picture(size, [&](int, int) { return left; }), picture(size, [&](int, int) { return right; })};
+      return {make_image(size, [&](int, int) { return left; }),
+              make_image(size, [&](int, int) { return right; })};
     }
     case Content::kTwoLevels:
       return two_levels(size, random);

@@ -1,4 +1,5 @@
-// Made-up stereo pairs that are hard on a matcher, the same for the same seed on every machine.
+// SPDX-License-Identifier: BSD-3-Clause
+// Synthetic stereo pairs that are hard to match, equal for equal seeds on every machine.
 #pragma once
 
 #include <array>
@@ -9,15 +10,15 @@
 
 namespace stereod {
 
-/// A random number generator (splitmix64, Steele et al. 2014). The standard library's distributions differ
-/// from one library to the next; these do not.
+/// A random number generator (splitmix64, Steele et al. 2014). Unlike the distributions of the standard
+/// library it gives the same numbers everywhere.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
 
   std::uint64_t next();
-  /// A number in [least, most].
-  int between(int least, int most);
+  /// Returns a number in [@p minimum, @p maximum].
+  int between(int minimum, int maximum);
   bool one_in(int n) { return between(1, n) == 1; }
   template <typename T, std::size_t N>
   const T& one_of(const std::array<T, N>& choices) {
@@ -29,10 +30,10 @@ class Random {
 };
 
 enum class Content {
-  kNoise,        ///< every pixel for itself, left and right unrelated
+  kNoise,        ///< independent pixels, left and right unrelated
   kSmoothNoise,  ///< blurred noise of low contrast, left and right unrelated: shallow minima
   kSlantedPair,  ///< a textured surface with a disparity that grows along x and y, with a little noise
-  kConstant,     ///< one gray value each: nothing but ties
+  kConstant,     ///< one gray value each: only ties
   kTwoLevels,    ///< two gray values a step apart: many ties
   kExtremes,     ///< 0 and 255 in patterns that drive the sums to their maxima
 };
@@ -46,7 +47,7 @@ struct StereoPair {
   GrayImage right;
 };
 
-/// A pair of this size, ≥ 1×1.
+/// Returns a pair of @p size [≥ 1×1 px].
 StereoPair random_pair(Content content, Size size, std::uint64_t seed);
 
 }  // namespace stereod

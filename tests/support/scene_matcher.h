@@ -1,4 +1,5 @@
-// The rendered scene as the daemon sees it.
+// SPDX-License-Identifier: BSD-3-Clause
+// Disparities of the rendered scene, computed as the daemon does.
 #pragma once
 
 #include "core/geometry/depth.h"
@@ -9,7 +10,7 @@
 
 namespace stereod {
 
-/// The daemon's way from a frame of the scene to disparities.
+/// Renders, rectifies and matches frames of a scene, as the daemon does.
 class SceneMatcher {
  public:
   explicit SceneMatcher(const SyntheticScene& scene, int threads = 2)
@@ -27,12 +28,12 @@ class SceneMatcher {
     matcher_.use_masks(&left_mask_, &right_mask_);
   }
 
-  /// Renders and rectifies a frame.
+  /// Renders and rectifies frame @p frame.
   void load(int frame) {
     rectify(scene_.render_left(frame), left_map_, left_);
     rectify(scene_.render_right(frame), right_map_, right_);
   }
-  /// Matches what was loaded.
+  /// Matches the loaded frame.
   void rematch() { matcher_.match(left_.view(), right_.view(), disparity_.view()); }
   const DisparityImage& disparity() const { return disparity_; }
 

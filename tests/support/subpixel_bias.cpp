@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/subpixel_bias.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ SubpixelBias sweep_plane(const SubpixelSweep& sweep, const SubpixelMatch& match)
   for (int texture = 0; texture < sweep.textures; ++texture) {
     const WaveTexture waves(static_cast<std::uint64_t>(texture + 1));
     for (int plane = 0; plane < sweep.pixels * kSteps; ++plane) {
-      const double truth = sweep.least + static_cast<double>(plane) / kSteps;
+      const double truth = sweep.min_disparity + static_cast<double>(plane) / kSteps;
       const auto step = static_cast<std::size_t>(plane % kSteps);
       const auto noise_seed = static_cast<std::uint64_t>(1000 * texture + plane);
       const DisparityImage found = match(plane_pair(waves, sweep.size, truth, sweep.noise, noise_seed));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/wave_texture.h"
 
 #include <algorithm>
@@ -9,16 +10,16 @@ namespace stereod {
 namespace {
 
 constexpr int kWaves = 100;
-constexpr double kMin = 3.3;  // px
-constexpr double kMax = 50;
-constexpr double kContrast = 40;  // standard deviation, gray levels
+constexpr double kMinWavelength = 3.3;  // px
+constexpr double kMaxWavelength = 50;
+constexpr double kContrast = 40;  // [gray levels] standard deviation
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-/// In [0, 1).
+/// Returns a number in [0, 1).
 double fraction(Random& random) { return static_cast<double>(random.next() >> 11U) * 0x1p-53; }
 
 double normal(Random& random) {
-  // Box and Muller; 1 − u because the logarithm of 0 is none.
+  // Box and Muller. 1 − u, because 0 has no logarithm.
   return std::sqrt(-2 * std::log(1 - fraction(random))) * std::cos(kTwoPi * fraction(random));
 }
 
@@ -28,13 +29,13 @@ WaveTexture::WaveTexture(std::uint64_t seed) {
   Random random(seed);
   double power = 0;
   for (int i = 0; i < kWaves; ++i) {
-    const double wavelength = kMin * std::pow(kMax / kMin, fraction(random));
+    const double wavelength = kMinWavelength * std::pow(kMaxWavelength / kMinWavelength, fraction(random));
     const double direction = kTwoPi * fraction(random);
     Wave wave{};
     wave.cycles_x = std::cos(direction) / wavelength;
     wave.cycles_y = std::sin(direction) / wavelength;
     wave.phase = kTwoPi * fraction(random);
-    const double half_turn = std::numbers::pi * wave.cycles_x;  // in a pixel's width
+    const double half_turn = std::numbers::pi * wave.cycles_x;  // over the width of a pixel
     const double averaged = half_turn == 0 ? 1 : std::sin(half_turn) / half_turn;
     wave.amplitude = std::sqrt(wavelength) * averaged;
     power += wave.amplitude * wave.amplitude / 2;
@@ -43,7 +44,7 @@ WaveTexture::WaveTexture(std::uint64_t seed) {
   for (Wave& wave : waves_) wave.amplitude *= kContrast / std::sqrt(power);
 }
 
-GrayImage WaveTexture::picture(Size size, double shift, double noise, std::uint64_t noise_seed) const {
+GrayImage WaveTexture::image(Size size, double shift, double noise, std::uint64_t noise_seed) const {
   Random random(noise_seed);
   GrayImage image(size);
   std::vector<double> row(static_cast<std::size_t>(size.width));
@@ -68,8 +69,8 @@ GrayImage WaveTexture::picture(Size size, double shift, double noise, std::uint6
 
 StereoPair plane_pair(const WaveTexture& texture, Size size, double disparity, double noise,
                       std::uint64_t noise_seed) {
-  return {texture.picture(size, disparity, noise, 2 * noise_seed),
-          texture.picture(size, 0, noise, 2 * noise_seed + 1)};
+  return {texture.image(size, disparity, noise, 2 * noise_seed),
+          texture.image(size, 0, noise, 2 * noise_seed + 1)};
 }
 
 }  // namespace stereod

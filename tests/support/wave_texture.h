@@ -1,4 +1,5 @@
-// A image that is known between its pixels.
+// SPDX-License-Identifier: BSD-3-Clause
+// A texture that is known between its pixels.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +10,17 @@
 
 namespace stereod {
 
-/// A sum of random plane waves, so that it can be sampled at any point and a shift by a part of a pixel is
-/// exact but for the rounding to gray values. Wavelengths lie between 3.3 and 50 px, long ones are stronger
-/// as in photographs, and every sample is averaged over a pixel's width as a camera does it. Gray is 128 ± 40
-/// (standard deviation), cut at 0 and 255.
+/// A sum of random plane waves, which can be sampled at any point: a shift by a fraction of a pixel is exact
+/// up to the rounding to gray values. Wavelengths lie between 3.3 and 50 px, long ones are stronger as in
+/// photographs, and every sample is averaged over the width of a pixel as in a camera. Gray values are 128 ±
+/// 40 (standard deviation), clipped to 0…255.
 class WaveTexture {
  public:
   explicit WaveTexture(std::uint64_t seed);
 
-  /// The image whose column x shows the texture at x − shift, with normally distributed noise of this
-  /// standard deviation (gray levels) added before rounding.
-  GrayImage picture(Size size, double shift, double noise, std::uint64_t noise_seed) const;
+  /// Returns the image whose column x shows the texture at x − @p shift, with normally distributed noise of
+  /// standard deviation @p noise [gray levels] added before rounding.
+  GrayImage image(Size size, double shift, double noise, std::uint64_t noise_seed) const;
 
  private:
   struct Wave {
@@ -30,7 +31,7 @@ class WaveTexture {
   std::vector<Wave> waves_;
 };
 
-/// A plane at this disparity everywhere: left column x shows what right column x − disparity does.
+/// Returns a pair that shows a plane: left column x shows the texture of right column x − @p disparity [px].
 StereoPair plane_pair(const WaveTexture& texture, Size size, double disparity, double noise,
                       std::uint64_t noise_seed);
 

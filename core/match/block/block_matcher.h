@@ -1,4 +1,5 @@
-// The block matcher: prefilter, search, tests and median of one band, row by row.
+// SPDX-License-Identifier: BSD-3-Clause
+// The block matcher: prefilter, search, checks and median of one band, row by row.
 #pragma once
 
 #include <memory>
@@ -9,15 +10,20 @@
 #include "core/match/block/disparity_checks.h"
 #include "core/match/block/row_search.h"
 #include "core/match/median.h"
-#include "core/match/row_ring.h"
+#include "core/match/row_stage.h"
 
 namespace stereod {
 
-/// The sum-of-absolute-differences matcher of docs/matcher.md. A row passes through three stages, each of
-/// which keeps only as many rows as the next one looks at:
-///   input rows → (1) prefilter → prefiltered rows → (2) search and tests → raw disparities → (3) median.
+/// Matches by sums of absolute differences over a window (docs/matcher.md, part 1). A row passes through
+/// three stages (row_stage.h):
+///
+///   stage      reads              border               makes
+///   prefilter  input rows         1 (0 without)        gradient rows
+///   search     gradient rows      window / 2           raw disparities, checked (disparity_checks.h)
+///   median     raw disparities    median / 2           disparity rows
 class BlockMatcher final : public BandMatcher {
  public:
+  /// Allocates all memory for images of size @p image. @p options have no problem_with().
   BlockMatcher(const MatcherOptions& options, Size image);
 
   void use_masks(const ValidityMask* left, const ValidityMask* right) noexcept override {
@@ -35,40 +41,34 @@ class BlockMatcher final : public BandMatcher {
   bool prefiltered() const { return options_.prefilter == Prefilter::kXsobel; }
   int window_radius() const { return options_.window / 2; }
   int median_radius() const { return options_.median / 2; }
-  std::int16_t* raw_row(int y) noexcept { return raw_.row(y) + kMedianMargin; }
-  const std::int16_t* raw_row(int y) const noexcept { return raw_.row(y) + kMedianMargin; }
-  const std::int16_t* invalid_row() const noexcept { return invalid_row_.data() + kMedianMargin; }
+  const std::int16_t* invalid_row() const noexcept { return invalid_row_.row(0); }
 
   void prefilter_row(int y) noexcept;
-  void search_row(int y) noexcept;
-  void search_waiting_rows() noexcept;
-  void judge_row(int y, const RowWinners& winners) noexcept;
+  void add_to_batch(int y) noexcept;
+  void search_batch() noexcept;
+  void validate_row(int y, const RowWinners& winners) noexcept;
   void filter_row(int y) noexcept;
-  void finish_rows(int end) noexcept;
 
   MatcherOptions options_;
   Size image_;
-  RowRange answerable_{};  // rows of the image whose window lies in it; empty if no pixel can have an answer
-  RowRange output_{};      // the band
-  RowRange searched_{};    // rows whose winners are needed, the median's neighbors included
-  RowRange compared_{};    // prefiltered rows that the windows of those cover
-  int prefiltered_end_ = 0;  // the next row for stage (1)
-  int searched_end_ = 0;     // the next row for stage (2)
-  int final_end_ = 0;        // rows of the band before this one are final
+  RowRange
+      valid_rows_{};  // image rows whose window lies in the image; empty if no pixel can have a disparity
+  RowStage prefilter_stage_, search_stage_, median_stage_;
+  int searched_input_end_ = 0;  // the next gradient row for the search
 
-  std::unique_ptr<RowSearch> search_;
-  const int batch_;  // rows that stage (2) takes at once
+  std::unique_ptr<RowSearch> search_;  // null if no column can have a disparity
+  const int batch_size_;               // rows that the search takes at once
   RowRing<std::uint8_t> left_input_, right_input_;
   RowRing<std::uint8_t> left_prefiltered_, right_prefiltered_;
-  std::vector<SearchRow> waiting_;   // prefiltered, for stage (2); at most a batch
-  std::vector<RowWinners> winners_;  // of a batch
+  std::vector<SearchRow> batch_;     // gradient rows that wait for the search
+  std::vector<RowWinners> winners_;  // one for each row of a batch
   const ValidityMask* left_mask_ = nullptr;
   const ValidityMask* right_mask_ = nullptr;
   std::optional<LeftRightCheck> left_right_check_;
   std::optional<TextureCheck> texture_check_;
-  RowRing<std::int16_t> raw_;  // with kMedianMargin invalid pixels on either side, like invalid_row_
+  RowRing<std::int16_t> raw_;  // margins: kMedianMargin invalid pixels, as in invalid_row_
   RowRing<std::int16_t> median_;
-  AlignedBuffer<std::int16_t> invalid_row_;
+  RowRing<std::int16_t> invalid_row_;
 };
 
 }  // namespace stereod

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/match/block/disparity_checks.h"
 
 #include <algorithm>
@@ -9,19 +10,19 @@
 namespace stereod {
 namespace {
 
-std::size_t at(int x) { return static_cast<std::size_t>(x); }
+std::size_t as_index(int x) { return static_cast<std::size_t>(x); }
 
-std::int16_t least_of(const std::int16_t* values, int count) {
-  std::int16_t least = values[0];
-  for (int i = 1; i < count; ++i) least = std::min(least, values[i]);
-  return least;
+std::int16_t minimum_of(const std::int16_t* values, int count) {
+  std::int16_t minimum = values[0];
+  for (int i = 1; i < count; ++i) minimum = std::min(minimum, values[i]);
+  return minimum;
 }
 
 struct Baseline {};
 
 template <typename Real>
 void write_subpixel(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) {
-  const std::size_t first = at(winners.first);
+  const std::size_t first = as_index(winners.first);
   interpolate<Real, Baseline>(winners.index.data() + first, winners.cost.data() + first,
                               winners.before.data() + first, winners.after.data() + first,
                               winners.end - winners.first, options.min_disparity, options.disparities,
@@ -33,7 +34,7 @@ void write_subpixel(const RowWinners& winners, const MatcherOptions& options, st
 void write_disparities(const RowWinners& winners, const MatcherOptions& options, std::int16_t* out) noexcept {
   if (!options.subpixel) {
     for (int x = winners.first; x < winners.end; ++x) {
-      out[x] = static_cast<std::int16_t>(options.min_disparity + winners.index[at(x)]);
+      out[x] = static_cast<std::int16_t>(options.min_disparity + winners.index[as_index(x)]);
     }
   } else if (options.cost == Cost::kSad) {
     write_subpixel<float>(winners, options, out);  // costs stay below 2^18
@@ -45,7 +46,7 @@ void write_disparities(const RowWinners& winners, const MatcherOptions& options,
 void reject_ambiguous(const RowWinners& winners, std::int16_t* out) noexcept {
   const std::uint8_t* ambiguous = winners.ambiguous.data();
   for (int x = winners.first; x < winners.end; ++x) {
-    // Without a branch: kInvalidDisparity has all bits set.
+    // No branch: kInvalidDisparity has all bits set.
     static_assert(kInvalidDisparity == -1);
     out[x] = static_cast<std::int16_t>(out[x] | -ambiguous[x]);
   }
@@ -53,80 +54,79 @@ void reject_ambiguous(const RowWinners& winners, std::int16_t* out) noexcept {
 
 void reject_left(const RowWinners& winners, const std::uint8_t* valid, std::int16_t* out) noexcept {
   for (int x = winners.first; x < winners.end; ++x) {
-    out[x] = static_cast<std::int16_t>(out[x] | (valid[x] - 1));  // 1 leaves it, 0 sets all bits
+    out[x] = static_cast<std::int16_t>(out[x] | (valid[x] - 1));  // 1 keeps the disparity, 0 sets all bits
   }
 }
 
 void reject_right(const RowWinners& winners, int min_disparity, const std::uint8_t* valid,
                   std::int16_t* out) noexcept {
   for (int x = winners.first; x < winners.end; ++x) {
-    const int match = x - min_disparity - winners.index[at(x)];
+    const int match = x - min_disparity - winners.index[as_index(x)];
     out[x] = static_cast<std::int16_t>(out[x] | (valid[match] - 1));
   }
 }
 
 LeftRightCheck::LeftRightCheck(int width)
-    : claims_(at(width + kUnroll)),
-      standing_(at(width + kMaxIndices)),
-      standing_index_(at(width + kUnroll)) {}
+    : matches_(as_index(width + kUnroll)),
+      best_(as_index(width + kMaxIndices)),
+      best_k_(as_index(width + kUnroll)) {}
 
 void LeftRightCheck::reject(const RowWinners& winners, const MatcherOptions& options,
                             std::int16_t* out) noexcept {
   if (options.cost == Cost::kSad) {  // costs stay below 2^18, k below 2^8
-    reject_by(reinterpret_cast<std::uint32_t*>(claims_.data()),
-              reinterpret_cast<std::uint32_t*>(standing_.data()), winners, options, out);
+    reject_inconsistent(reinterpret_cast<std::uint32_t*>(matches_.data()),
+                        reinterpret_cast<std::uint32_t*>(best_.data()), winners, options, out);
   } else {
-    reject_by(claims_.data(), standing_.data(), winners, options, out);
+    reject_inconsistent(matches_.data(), best_.data(), winners, options, out);
   }
 }
 
-// A claim is cost and k in one number. Of the left pixels that claim the same right one, the lowest x has the
-// lowest k, so the least number is the claim that stands. Standing claims lie from right to left, so that k
-// is added to a column's place as it is. The two loops that no vector can do are unrolled, do nothing else,
-// and end with claims that change nothing.
-template <typename Claim>
-void LeftRightCheck::reject_by(Claim* claims, Claim* standing, const RowWinners& winners,
-                               const MatcherOptions& options, std::int16_t* out) {
-  constexpr Claim kNone = std::numeric_limits<Claim>::max();
+// A score is the cost and k of a match in one number. Among the left pixels that match the same right one,
+// the lowest x has the lowest k, so the minimum score is the best match. The best scores lie from right to
+// left, so that k is added to the position of a column. The two loops that vectors cannot do are unrolled, do
+// nothing else, and end with scores that change nothing.
+template <typename Score>
+void LeftRightCheck::reject_inconsistent(Score* matches, Score* best, const RowWinners& winners,
+                                         const MatcherOptions& options, std::int16_t* out) {
+  constexpr Score kNone = std::numeric_limits<Score>::max();
   const std::uint16_t* index = winners.index.data() + winners.first;
   const std::uint32_t* cost = winners.cost.data() + winners.first;
   const std::ptrdiff_t count = winners.end - winners.first;
-  std::fill_n(standing, count + kMaxIndices, kNone);
-  for (std::ptrdiff_t i = 0; i < count; ++i) claims[i] = Claim{cost[i]} * kMaxIndices | index[i];
-  std::fill_n(claims + count, kUnroll, kNone);
+  std::fill_n(best, count + kMaxIndices, kNone);
+  for (std::ptrdiff_t i = 0; i < count; ++i) matches[i] = Score{cost[i]} * kMaxIndices | index[i];
+  std::fill_n(matches + count, kUnroll, kNone);
 
-  const auto index_of = [](Claim claim) { return static_cast<std::ptrdiff_t>(claim % kMaxIndices); };
-  for (std::ptrdiff_t i = 0, place = count - 1; i < count; i += kUnroll, place -= kUnroll) {
+  const auto index_of = [](Score score) { return static_cast<std::ptrdiff_t>(score % kMaxIndices); };
+  for (std::ptrdiff_t i = 0, position = count - 1; i < count; i += kUnroll, position -= kUnroll) {
 #pragma GCC unroll 8
     for (std::ptrdiff_t j = 0; j < kUnroll; ++j) {
-      const Claim claim = claims[i + j];
-      Claim& other = standing[place - j + index_of(claim)];
-      other = claim < other ? claim : other;
+      const Score match = matches[i + j];
+      Score& other = best[position - j + index_of(match)];
+      other = match < other ? match : other;
     }
   }
-  std::uint16_t* standing_index = standing_index_.data();
-  for (std::ptrdiff_t i = 0, place = count - 1; i < count; i += kUnroll, place -= kUnroll) {
+  std::uint16_t* best_k = best_k_.data();
+  for (std::ptrdiff_t i = 0, position = count - 1; i < count; i += kUnroll, position -= kUnroll) {
 #pragma GCC unroll 8
     for (std::ptrdiff_t j = 0; j < kUnroll; ++j) {
-      const Claim stands = standing[place - j + index_of(claims[i + j])];
-      standing_index[i + j] = static_cast<std::uint16_t>(index_of(stands));
+      const Score match = best[position - j + index_of(matches[i + j])];
+      best_k[i + j] = static_cast<std::uint16_t>(index_of(match));
     }
   }
 
   const auto max_diff = static_cast<std::int16_t>(options.left_right_max_diff);
   std::int16_t* result = out + winners.first;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const auto difference = static_cast<std::int16_t>(std::abs(standing_index[i] - index[i]));
+    const auto difference = static_cast<std::int16_t>(std::abs(best_k[i] - index[i]));
     result[i] = static_cast<std::int16_t>(result[i] | -static_cast<int>(difference > max_diff));
   }
 }
 
 std::size_t LeftRightCheck::scratch_bytes() const noexcept {
-  return (claims_.size() + standing_.size()) * sizeof(claims_[0]) +
-         standing_index_.size() * sizeof(standing_index_[0]);
+  return (matches_.size() + best_.size()) * sizeof(matches_[0]) + best_k_.size() * sizeof(best_k_[0]);
 }
 
-TextureCheck::TextureCheck(int width) : width_(width), column_sums_(at(width + kBlock)) {}
+TextureCheck::TextureCheck(int width) : width_(width), column_sums_(as_index(width + kBlock)) {}
 
 void TextureCheck::reset() noexcept { column_sums_.fill_zero(); }
 
@@ -145,16 +145,16 @@ void TextureCheck::add_row(const std::uint8_t* added, const std::uint8_t* remove
   }
 }
 
-// A block of windows passes whole where each of its columns has enough, and mostly they have. Elsewhere each
-// window's sum is made anew from its columns, eight windows to a vector: less work than one sum that slides.
+// A block of windows passes as a whole if each of its columns has enough gradient, which is the usual case.
+// Else each window is summed from its columns, eight windows a vector, which is faster than one sliding sum.
 void TextureCheck::reject(const RowWinners& winners, const MatcherOptions& options,
                           std::int16_t* out) noexcept {
   const int threshold = options.texture_threshold;
-  const int enough = (threshold + options.window - 1) / options.window;  // of each of `window` columns
+  const int enough = (threshold + options.window - 1) / options.window;  // for each column
   for (int x = winners.first; x < winners.end; x += kBlock) {
     const int count = std::min(kBlock, winners.end - x);
     const std::int16_t* columns = column_sums_.data() + x - options.window / 2;
-    if (least_of(columns, count + options.window - 1) < enough) {
+    if (minimum_of(columns, count + options.window - 1) < enough) {
       reject_block(columns, options.window, threshold, count, out + x);
     }
   }
@@ -167,9 +167,9 @@ void TextureCheck::reject_block(const std::int16_t* columns, int window, int thr
   for (int i = 1; i < window; ++i) {
     for (int j = 0; j < kBlock; ++j) sums[j] = static_cast<std::uint16_t>(sums[j] + columns[i + j]);
   }
-  const auto least = static_cast<std::uint16_t>(std::min(threshold, 0xFFFF));  // no sum is as large as that
+  const auto limit = static_cast<std::uint16_t>(std::min(threshold, 0xFFFF));  // sums are below 0xFFFF
   for (int j = 0; j < count; ++j) {
-    out[j] = static_cast<std::int16_t>(out[j] | -static_cast<int>(sums[j] < least));
+    out[j] = static_cast<std::int16_t>(out[j] | -static_cast<int>(sums[j] < limit));
   }
 }
 

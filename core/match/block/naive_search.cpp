@@ -1,4 +1,5 @@
-// The definition: for each pixel and disparity the whole window is compared anew (thesis, listing A.1).
+// SPDX-License-Identifier: BSD-3-Clause
+// The reference search: compares the whole window for each pixel and disparity (thesis, listing A.1).
 #include <algorithm>
 #include <cstdlib>
 #include <vector>
@@ -51,7 +52,7 @@ class NaiveSearch final : public RowSearch {
     }
   }
 
-  // Thesis, equations 2.1 (sum of absolute differences), 2.2 (of squared ones) and 2.3 (the largest one).
+  // Thesis, equations 2.1 (sum of absolute differences), 2.2 (sum of squares) and 2.3 (maximum).
   std::uint32_t window_cost(int x, int disparity) const {
     const int r = options_.window / 2;
     std::uint32_t cost = 0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/match/block/prefilter.h"
 
 #include "core/match/block/kernels/kernel.h"

@@ -1,13 +1,14 @@
-// What a image goes through before it is compared.
+// SPDX-License-Identifier: BSD-3-Clause
+// The prefilter: horizontal gradients.
 #pragma once
 
 #include <cstdint>
 
 namespace stereod {
 
-/// The horizontal Sobel gradient of one row, clipped to ±cap and shifted to 0…2·cap (docs/matcher.md, section
-/// 1; the same as OpenCV's StereoBM::PREFILTER_XSOBEL). The rows are `width` ≥ 1 pixels; at the image's edge
-/// the caller passes the mirrored row.
+/// Writes the horizontal Sobel gradient of one row, clipped to ±@p cap [1…63] and shifted to 0…2·cap
+/// (docs/matcher.md, section 1; as OpenCV's StereoBM::PREFILTER_XSOBEL). All rows have @p width [≥ 1] pixels;
+/// beyond the top and the bottom of the image the caller passes the mirrored row.
 void xsobel_row(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width,
                 int cap, std::uint8_t* out) noexcept;
 

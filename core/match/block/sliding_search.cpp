@@ -1,5 +1,6 @@
-// The sliding window of the thesis, section 3.7: what the last window summed is kept, the new is added and
-// the oldest subtracted, first along the row (D to S1), then down the columns (S1 to S2).
+// SPDX-License-Identifier: BSD-3-Clause
+// The sliding window of the thesis, section 3.7: a window's sum is that of the window before plus what enters
+// minus what leaves, first along the row (D to S1), then down the columns (S1 to S2).
 #include <algorithm>
 #include <cstdlib>
 
@@ -41,9 +42,9 @@ class SlidingSearch final : public RowSearch {
   void add_row(const std::uint8_t* left, const std::uint8_t* right, RowWinners* winners) {
     std::uint16_t* s1 = row_sums_.data() + matrix_size() * static_cast<std::size_t>(oldest_);
     for (int k = 0; k < options_.disparities; ++k) {
-      const auto at = static_cast<std::size_t>(k) * static_cast<std::size_t>(columns_);
+      const auto offset = static_cast<std::size_t>(k) * static_cast<std::size_t>(columns_);
       difference_row(left, right, k);
-      sum_row(k, s1 + at, window_sums_.data() + at);
+      sum_row(k, s1 + offset, window_sums_.data() + offset);
     }
     oldest_ = (oldest_ + 1) % options_.window;
     if (winners != nullptr) search(*winners);
@@ -54,7 +55,7 @@ class SlidingSearch final : public RowSearch {
     return static_cast<std::size_t>(options_.disparities) * static_cast<std::size_t>(columns_);
   }
 
-  // One row of D: the columns c ≥ k have a pixel at this disparity in the right image.
+  // Writes one row of D. Only columns c ≥ k have a pixel at disparity k in the right image.
   void difference_row(const std::uint8_t* left, const std::uint8_t* right, int k) {
     for (int c = k; c < columns_; ++c) {
       difference_[static_cast<std::size_t>(c)] =
@@ -62,7 +63,8 @@ class SlidingSearch final : public RowSearch {
     }
   }
 
-  // S1: sums of D over the `window` columns that end in c. S2: gains the new S1 and loses the oldest.
+  // Writes S1, the sums of D over the `window` columns that end in c. Adds the new S1 to S2 and subtracts the
+  // oldest.
   void sum_row(int k, std::uint16_t* s1, std::uint32_t* s2) {
     int sum = 0;
     for (int c = k; c < columns_; ++c) {
@@ -89,7 +91,7 @@ class SlidingSearch final : public RowSearch {
   AlignedBuffer<std::uint8_t> difference_;    // D, one disparity at a time
   AlignedBuffer<std::uint16_t> row_sums_;     // S1 of the last `window` rows, [row][k][c]
   AlignedBuffer<std::uint32_t> window_sums_;  // S2, [k][c]
-  int oldest_ = 0;                            // which S1 the next row replaces
+  int oldest_ = 0;                            // the S1 row that the next one replaces
 };
 
 }  // namespace

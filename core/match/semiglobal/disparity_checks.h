@@ -1,4 +1,5 @@
-// From the winners of a row of the grid to its disparities: interpolation and tests.
+// SPDX-License-Identifier: BSD-3-Clause
+// From the winners of a grid row to its disparities: interpolation and checks.
 #pragma once
 
 #include <cstddef>
@@ -11,39 +12,42 @@
 
 namespace stereod::semiglobal {
 
-/// Sections 2.3 and 2.4 of docs/matcher.md, of one row.
+/// Computes sections 2.3 and 2.4 of docs/matcher.md for one grid row at a time.
 class DisparityChecks {
  public:
-  DisparityChecks(const MatcherOptions& options, const Shape& shape, const Kernel& kernel);
+  /// The arguments must outlive this object.
+  DisparityChecks(const MatcherOptions& options, const SearchParams& params, const Kernel& kernel);
 
-  /// `sums` and `winners` as Kernel::paths_from_left leaves them. Masks are of the image row, null if all its
-  /// pixels are valid.
+  /// Writes the disparities of a grid row, kNoDisparity where a check fails. @p sums and @p winners are as
+  /// Kernel::paths_from_left leaves them. The masks are rows of the image; null if all their pixels are
+  /// valid.
   void write(const std::uint8_t* sums, const std::uint16_t* winners, const std::uint8_t* left_mask,
-             const std::uint8_t* right_mask, GridValue* out) noexcept;
+             const std::uint8_t* right_mask, SubsampledDisparity* out) noexcept;
   std::size_t scratch_bytes() const noexcept;
 
  private:
   void find_winners(const std::uint8_t* sums, const std::uint16_t* winners) noexcept;
   template <int kVectors>
-  void find_winners_among(const std::uint8_t* sums, const std::uint16_t* winners) noexcept;
-  void reject_contested(GridValue* out) noexcept;
-  void reject_ambiguous(const std::uint8_t* sums, const std::uint16_t* winners, GridValue* out) noexcept;
+  void find_winners_in(const std::uint8_t* sums, const std::uint16_t* winners) noexcept;
+  void reject_inconsistent(SubsampledDisparity* out) noexcept;
+  void reject_ambiguous(const std::uint8_t* sums, const std::uint16_t* winners,
+                        SubsampledDisparity* out) noexcept;
   void reject_masked(const std::uint8_t* left_mask, const std::uint8_t* right_mask,
-                     GridValue* out) const noexcept;
-  int column_shift() const { return shape_.decimation_x == 2 ? 1 : 0; }
+                     SubsampledDisparity* out) const noexcept;
+  int column_shift() const { return params_.decimation_x == 2 ? 1 : 0; }
 
   const MatcherOptions& options_;
-  const Shape& shape_;
+  const SearchParams& params_;
   const Kernel& kernel_;
-  std::vector<std::uint8_t> before_, after_;  // where a disparity's neighbors stand
-  // Of each point, and some more for whole vectors: the winning disparity, and the sums before and after it.
+  std::vector<std::uint8_t> offset_before_, offset_after_;  // lane offsets of k − 1 and k + 1
+  // By sample, with room for whole vectors: k of the winner, the sums of k − 1 and k + 1.
   std::vector<std::uint8_t> index_, sum_before_, sum_after_;
-  // One test after the other: the right point it claims and the disparity that stands there; then how many
-  // sums are no higher than rivals may be, and how high that is.
-  std::vector<std::int16_t> claimed_or_count_;
-  std::vector<std::uint8_t> standing_or_limit_;
-  std::vector<std::uint16_t> claims_;   // best sum · 256 + disparity for right points
-  std::vector<std::uint8_t> limit_of_;  // sums up to which are rivals of each least one
+  // By sample, used by one check after the other: first the right sample that it matches and k of that one's
+  // best match; then the number of sums up to the uniqueness limit, and that limit.
+  std::vector<std::int16_t> match_or_count_;
+  std::vector<std::uint8_t> best_k_or_limit_;
+  std::vector<std::uint16_t> best_match_;       // by right sample: minimum sum · 256 + k
+  std::vector<std::uint8_t> uniqueness_limit_;  // by minimum sum
 };
 
 }  // namespace stereod::semiglobal

@@ -1,4 +1,5 @@
-// From two rows of images to the costs of a row of the grid.
+// SPDX-License-Identifier: BSD-3-Clause
+// From the rows of two images to the costs of a grid row.
 #pragma once
 
 #include <cstddef>
@@ -10,28 +11,29 @@
 
 namespace stereod::semiglobal {
 
-/// A row of pixels with its neighbors, from two above it to two below, as Kernel::census_row wants them; the
-/// rows above and below are also those that the gradient takes.
+/// A row of pixels and its neighbors. Rows beyond the image are clamped for the census and mirrored for the
+/// gradient.
 struct PixelRows {
-  const std::uint8_t* census[2 * kCensusReach + 1];
-  const std::uint8_t* above;
+  const std::uint8_t* census[2 * kCensusReach + 1];  ///< from two rows above to two below
+  const std::uint8_t* above;                         ///< for the gradient
   const std::uint8_t* row;
   const std::uint8_t* below;
 };
 
-/// Drives the first half of a kernel, with the memory that it needs.
+/// Drives the cost functions of a kernel and owns the memory that they need.
 class PixelCosts {
  public:
-  PixelCosts(const MatcherOptions& options, const Shape& shape, const Kernel& kernel);
+  /// @p params and @p kernel must outlive this object.
+  PixelCosts(const MatcherOptions& options, const SearchParams& params, const Kernel& kernel);
 
-  /// Writes the costs of a row of the grid, as CostRow::costs.
+  /// Writes the costs of a grid row to @p costs, as CostRow::costs describes them.
   void write(const PixelRows& left, const PixelRows& right, std::uint8_t* costs) noexcept;
   std::size_t scratch_bytes() const noexcept;
 
  private:
   void describe(const PixelRows& rows, int shift, std::uint8_t* planes) noexcept;
 
-  const Shape& shape_;
+  const SearchParams& params_;
   const Kernel& kernel_;
   int prefilter_cap_;
   AlignedBuffer<std::uint8_t> tables_;

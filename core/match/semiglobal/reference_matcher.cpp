@@ -1,4 +1,5 @@
-// The definition behind the interface of bands: it takes the whole image, whatever the band.
+// SPDX-License-Identifier: BSD-3-Clause
+// The reference behind the interface of bands.
 #include <algorithm>
 
 #include "core/match/semiglobal/reference.h"
@@ -24,7 +25,7 @@ class ReferenceSemiglobalMatcher final : public BandMatcher {
   std::uint8_t* right_row(int y) noexcept override { return right_.row(y); }
   RowRange push(int y) noexcept override {
     if (y < left_.height() - 1) return {output_.first, output_.first};
-    result_ = semiglobal_by_definition(left_.view(), right_.view(), options_, left_mask_, right_mask_);
+    result_ = semiglobal_reference(left_.view(), right_.view(), options_, left_mask_, right_mask_);
     return output_;
   }
   const std::int16_t* disparity_row(int y) const noexcept override { return result_.row(y); }
@@ -44,7 +45,7 @@ class ReferenceSemiglobalMatcher final : public BandMatcher {
 
 }  // namespace
 
-std::unique_ptr<BandMatcher> make_defined_semiglobal_matcher(const MatcherOptions& options, Size image) {
+std::unique_ptr<BandMatcher> make_reference_semiglobal_matcher(const MatcherOptions& options, Size image) {
   return std::make_unique<ReferenceSemiglobalMatcher>(options, image);
 }
 

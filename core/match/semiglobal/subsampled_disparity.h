@@ -1,26 +1,29 @@
-// Disparities at the points of the grid, on their way from the winners to the image.
+// SPDX-License-Identifier: BSD-3-Clause
+// Disparities of the samples of the grid, between the search and the upsampling to the image.
 #pragma once
 
 #include <cstdint>
 
 namespace stereod::semiglobal {
 
-/// A disparity on the grid: 1/16 px from min_disparity on, times 2, and 1 more if it was filled in, so that
-/// of two the lesser one has the lower disparity; kNone where there is none.
-using GridValue = std::int16_t;
-inline constexpr GridValue kNone = -1;
+/// The disparity of a sample, 2·u + f: u in 1/16 px above min_disparity [≥ 0], f = 1 if it was filled in. So
+/// the lesser of two values has the lower disparity. kNoDisparity, which is below any disparity, if unknown.
+using SubsampledDisparity = std::int16_t;
+inline constexpr SubsampledDisparity kNoDisparity = -1;
 
-/// Elements before the first and after the last of a row of values that can be read and written.
-inline constexpr int kValueMargin = 32;
+/// Elements before the first and after the last one of a row of disparities that may be read and written.
+inline constexpr int kDisparityMargin = 32;
 
-/// What of the options decides how values become disparities.
-struct Disparities {
-  int min_disparity, disparities;
-  bool subpixel;  ///< 1/16 px, else whole ones
-  bool fill;      ///< what was measured outside the right image counts as filled, else as not there
+/// How subsampled disparities become disparities of the image.
+struct OutputParams {
+  int min_disparity;  ///< [px]
+  int disparities;    ///< [px] searched
+  bool subpixel;      ///< 1/16 px, else whole pixels
+  bool fill;          ///< a disparity whose match lies outside the right image becomes filled, else invalid
 };
 
-/// Points without a value get the lower one of the nearest to the left and to the right.
-void fill_grid_row(GridValue* row, int width) noexcept;
+/// Gives each sample without a disparity the lower one of the nearest disparities to the left and to the
+/// right in its row, marked as filled. A row without any disparity stays as it is. @p width [samples].
+void fill_holes(SubsampledDisparity* row, int width) noexcept;
 
 }  // namespace stereod::semiglobal

@@ -1,4 +1,5 @@
-// Which kernel is chosen. On emulated CPUs tests/emulated/run.sh says which one it must be.
+// SPDX-License-Identifier: BSD-3-Clause
+// The choice of the kernel. On emulated CPUs tests/emulated/run.sh says which one it must be.
 #include "core/base/cpu.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 namespace stereod {
 namespace {
 
-TEST(Isa, AutoIsTheLastOfTheAvailableOnes) {
+TEST(Isa, Auto_IsLastAvailable) {
   const std::vector<Isa> isas = available_isas();
   ASSERT_FALSE(isas.empty());
   EXPECT_EQ(isas.front(), Isa::kScalar);
@@ -18,7 +19,7 @@ TEST(Isa, AutoIsTheLastOfTheAvailableOnes) {
   EXPECT_EQ(std::count(isas.begin(), isas.end(), Isa::kAuto), 0);
 }
 
-TEST(Isa, TheChosenOneIsTheOneExpectedOfThisCpu) {
+TEST(Isa, Auto_IsExpectedForCpu) {
   const char* const expected = std::getenv("STEREOD_EXPECTED_ISA");
   if (expected == nullptr) GTEST_SKIP() << "STEREOD_EXPECTED_ISA does not say which one this CPU should get";
   EXPECT_EQ(name_of(resolve_isa(Isa::kAuto)), std::string(expected));

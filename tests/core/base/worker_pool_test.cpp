@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/base/worker_pool.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@
 namespace stereod {
 namespace {
 
-TEST(WorkerPool, RefusesNumbersOfWorkersThatMakeNoSense) {
+TEST(WorkerPool, BadWorkerCount_Throws) {
   EXPECT_THROW(WorkerPool(0), std::invalid_argument);
   EXPECT_THROW(WorkerPool(-3), std::invalid_argument);
   EXPECT_THROW(WorkerPool(257), std::invalid_argument);
@@ -25,7 +26,7 @@ TEST(WorkerPool, RefusesNumbersOfWorkersThatMakeNoSense) {
   EXPECT_EQ(WorkerPool(7).workers(), 7);
 }
 
-TEST(WorkerPool, EveryJobRunsExactlyOnce) {
+TEST(WorkerPool, EveryJob_RunsOnce) {
   for (const int workers : {1, 2, 3, 5, 16}) {
     WorkerPool pool(workers);
     for (const int jobs : {0, 1, 2, workers - 1, workers, workers + 1, 1000}) {
@@ -39,7 +40,7 @@ TEST(WorkerPool, EveryJobRunsExactlyOnce) {
   }
 }
 
-TEST(WorkerPool, AWorkerNumberBelongsToOneThreadAtATime) {
+TEST(WorkerPool, WorkerNumber_BelongsToOneThread) {
   constexpr int kWorkers = 4;
   WorkerPool pool(kWorkers);
   std::array<std::atomic<int>, kWorkers> busy{};
@@ -65,8 +66,8 @@ TEST(WorkerPool, AWorkerNumberBelongsToOneThreadAtATime) {
   EXPECT_EQ(thread_of[0], hash(std::this_thread::get_id())) << "the caller is worker 0";
 }
 
-TEST(WorkerPool, WorkersRunAtTheSameTime) {
-  // Each job waits until all have begun: it ends only if every worker has taken one.
+TEST(WorkerPool, Workers_RunConcurrently) {
+  // Each job waits until all have begun, so the run ends only if every worker has taken one.
   constexpr int kWorkers = 5;
   WorkerPool pool(kWorkers);
   std::atomic<int> begun = 0;
@@ -77,7 +78,7 @@ TEST(WorkerPool, WorkersRunAtTheSameTime) {
   EXPECT_EQ(begun, kWorkers);
 }
 
-TEST(WorkerPool, WhatAJobWroteIsVisibleAfterTheRun) {
+TEST(WorkerPool, Writes_VisibleAfterRun) {
   WorkerPool pool(3);
   std::vector<int> plain(1000, 0);
   for (int round = 1; round <= 20; ++round) {
@@ -86,7 +87,7 @@ TEST(WorkerPool, WhatAJobWroteIsVisibleAfterTheRun) {
   }
 }
 
-TEST(WorkerPool, CarriesTheExceptionOfAJobAndGoesOn) {
+TEST(WorkerPool, JobThrows_RethrowsAndGoesOn) {
   for (const int workers : {1, 2, 4}) {
     WorkerPool pool(workers);
     for (int round = 0; round < 20; ++round) {
@@ -113,7 +114,7 @@ TEST(WorkerPool, CarriesTheExceptionOfAJobAndGoesOn) {
   }
 }
 
-TEST(WorkerPool, OfSeveralExceptionsOneIsCarriedAndNoneIsLeftOver) {
+TEST(WorkerPool, SeveralThrow_RethrowsOne) {
   WorkerPool pool(4);
   for (int round = 0; round < 50; ++round) {
     EXPECT_THROW(pool.run(8, [](int number, int) { throw std::runtime_error(std::to_string(number)); }),
@@ -122,7 +123,7 @@ TEST(WorkerPool, OfSeveralExceptionsOneIsCarriedAndNoneIsLeftOver) {
   }
 }
 
-TEST(WorkerPool, ThousandsOfRuns) {
+TEST(WorkerPool, ThousandsOfRuns_AllJobsRun) {
   for (const int workers : {2, 3, 8}) {
     WorkerPool pool(workers);
     std::atomic<int> runs = 0;
@@ -133,7 +134,7 @@ TEST(WorkerPool, ThousandsOfRuns) {
   }
 }
 
-TEST(WorkerPool, ManyPoolsComeAndGo) {
+TEST(WorkerPool, ManyPools_ComeAndGo) {
   for (int round = 0; round < 200; ++round) {
     WorkerPool pool(1 + round % 6);
     std::atomic<int> runs = 0;
@@ -144,9 +145,9 @@ TEST(WorkerPool, ManyPoolsComeAndGo) {
   }
 }
 
-TEST(AllocationCounter, SeesAllocationsOfEveryKindAndThread) {
+TEST(AllocationCounter, EveryKindAndThread_Counted) {
   if (!AllocationCounter::supported()) GTEST_SKIP() << "allocations cannot be counted in this build";
-  // Through a volatile pointer, or the compiler may leave the allocation out.
+  // A volatile pointer, because the compiler may remove the allocation otherwise.
   void* volatile memory = nullptr;
   const auto counts = [&](auto&& allocate, auto&& release) {
     const AllocationCounter counter;
@@ -169,7 +170,7 @@ TEST(AllocationCounter, SeesAllocationsOfEveryKindAndThread) {
   EXPECT_EQ(quiet.count(), 0U);
 }
 
-TEST(WorkerPool, RunAllocatesNothing) {
+TEST(WorkerPool, Run_AllocatesNothing) {
   if (!AllocationCounter::supported()) GTEST_SKIP() << "allocations cannot be counted in this build";
   WorkerPool pool(4);
   std::atomic<int> runs = 0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/geometry/calibration.h"
 
 #include <gtest/gtest.h>
@@ -23,21 +24,21 @@ Calibration sound() {
   return {{640, 480}, left, right, 0.06, "", {12, 0.3, 0.2}};
 }
 
-TEST(Calibration, SoundOneHasNoProblem) { EXPECT_EQ(problem_with(sound()), std::nullopt); }
+TEST(Calibration, Valid_HasNoProblem) { EXPECT_EQ(problem_with(sound()), std::nullopt); }
 
-TEST(Calibration, AViewOfNextToNothingIsAProblem) {
+TEST(Calibration, EmptyView_IsProblem) {
   EXPECT_EQ(problem_with_view(sound()), std::nullopt);
   Calibration c = sound();
-  c.right.projection.cx = 5000;  // the image lies to the left of what is drawn
+  c.right.projection.cx = 5000;  // the image lies left of the rectified one
   EXPECT_EQ(problem_with_view(c).value_or(""),
             "only 0.0 % of the right rectified image would have anything in it; these are the numbers of no "
             "camera: calibrate again");
   c = sound();
-  c.left.rotation = rotation_about({0, 3, 0});  // looks the other way
+  c.left.rotation = rotation_about({0, 3, 0});  // looks backward
   EXPECT_EQ(problem_with_view(c).value_or("").find("only 0.0 % of the left"), 0U);
 }
 
-TEST(Calibration, ProblemsAreNamed) {
+TEST(Calibration, Problem_NamesNumber) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   struct Case {
@@ -102,13 +103,13 @@ TEST(Calibration, ProblemsAreNamed) {
   }
 }
 
-TEST(Calibration, PrincipalPointsMayDifferAlongTheRow) {
+TEST(Calibration, CxDiffers_HasNoProblem) {
   Calibration calibration = sound();
   calibration.right.projection.cx += 12;
   EXPECT_EQ(problem_with(calibration), std::nullopt);
 }
 
-TEST(Calibration, IdChangesWithEveryNumberOfTheGeometryAndNoOther) {
+TEST(Calibration, Id_ChangesWithGeometryOnly) {
   const std::string id = calibration_id(sound());
   EXPECT_EQ(id.size(), 16U);
   EXPECT_EQ(id.find_first_not_of("0123456789abcdef"), std::string::npos);
@@ -133,7 +134,7 @@ TEST(Calibration, IdChangesWithEveryNumberOfTheGeometryAndNoOther) {
   EXPECT_EQ(calibration_id(better), id);
 }
 
-TEST(Depth, FollowsFromTheProjections) {
+TEST(Depth, OfDisparity_FollowsProjections) {
   Calibration calibration = sound();
   calibration.left.projection.cx = 330;
   calibration.right.projection.cx = 318;
@@ -145,7 +146,7 @@ TEST(Depth, FollowsFromTheProjections) {
   EXPECT_EQ(disparity_offset_px(calibration), -12);
 }
 
-TEST(Depth, OfZeroShiftAndBeyondIsInfinite) {
+TEST(Depth, OfZeroShift_IsInfinite) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(depth_m(500, 0.06, 0, 0), infinity);
   EXPECT_EQ(depth_m(500, 0.06, -12, 12), infinity);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/geometry/camera_model.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,7 @@ CameraModel fisheye() {
   return camera;
 }
 
-TEST(Matrix3, ProductAppliesTheRightFactorFirst) {
+TEST(Matrix3, Product_AppliesRightFactorFirst) {
   const Matrix3 quarter_about_z = rotation_about({0, 0, std::numbers::pi / 2});
   const Matrix3 quarter_about_x = rotation_about({std::numbers::pi / 2, 0, 0});
   const Vector3 v = (quarter_about_x * quarter_about_z) * Vector3{1, 0, 0};  // x to y, then y to z
@@ -44,7 +45,7 @@ TEST(Matrix3, ProductAppliesTheRightFactorFirst) {
   EXPECT_NEAR(v.z, 1, 1e-15);
 }
 
-TEST(Matrix3, RotationIsOrthonormalWithDeterminantOne) {
+TEST(Matrix3, Rotation_IsOrthonormal) {
   const Matrix3 rotation = rotation_about({0.3, -1.2, 0.7});
   const Matrix3 product = rotation * transposed(rotation);
   for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(product.m[i], Matrix3{}.m[i], 1e-15);
@@ -52,12 +53,12 @@ TEST(Matrix3, RotationIsOrthonormalWithDeterminantOne) {
   EXPECT_EQ(rotation_about({0, 0, 0}), Matrix3{});
 }
 
-TEST(Matrix3, DeterminantTellsMirrorsAndVolumes) {
+TEST(Matrix3, Determinant_ShowsMirrorsAndVolumes) {
   EXPECT_EQ(determinant({{2, 0, 0, 0, 3, 0, 0, 0, -4}}), -24);
   EXPECT_EQ(determinant({{1, 2, 3, 4, 5, 6, 7, 8, 10}}), -3);
 }
 
-TEST(CameraModel, WithoutDistortionIsAPinhole) {
+TEST(CameraModel, NoDistortion_IsPinhole) {
   const CameraModel camera{{640, 480}, 500, 510, 320, 240};
   const Point2 p = camera.distort({0.2, -0.1});
   EXPECT_EQ(p.x, 0.2);
@@ -69,8 +70,8 @@ TEST(CameraModel, WithoutDistortionIsAPinhole) {
   EXPECT_DOUBLE_EQ(camera.from_pixel(pixel).y, -0.1);
 }
 
-// Worked out by hand from the model's definition.
-TEST(CameraModel, DistortsAsDefined) {
+// Computed by hand from the definition of the model.
+TEST(CameraModel, Distort_EqualsHandComputed) {
   CameraModel camera;
   camera.k1 = 1, camera.k2 = 2, camera.p1 = 0.25, camera.p2 = 0.5, camera.k3 = 4;
   camera.k4 = 1, camera.k5 = 0.5, camera.k6 = 2;
@@ -80,13 +81,13 @@ TEST(CameraModel, DistortsAsDefined) {
   EXPECT_DOUBLE_EQ(p.y, 0.5 * radial + 0.25 * (1.25 + 0.5) + 2 * 0.5 * 0.5);
 }
 
-TEST(CameraModel, UndistortInvertsDistortAllOverTheImage) {
+TEST(CameraModel, Undistort_InvertsDistort) {
   for (const CameraModel& camera : {webcam(), rational(), tilted(), fisheye()}) {
     for (int y = 0; y < 480; y += 13) {
       for (int x = 0; x < 640; x += 13) {
         const Point2 seen = camera.from_pixel({static_cast<double>(x), static_cast<double>(y)});
         const auto straight = camera.undistort(seen);
-        // A fisheye's corners look farther to the side than a plane image can show.
+        // The corners of a fisheye look farther to the side than a plane image can show.
         if (camera.lens == LensModel::kFisheye && std::hypot(seen.x, seen.y) > 1.5) continue;
         ASSERT_TRUE(straight.has_value()) << x << ' ' << y;
         const Point2 again = camera.distort(*straight);
@@ -97,7 +98,7 @@ TEST(CameraModel, UndistortInvertsDistortAllOverTheImage) {
   }
 }
 
-TEST(CameraModel, UndistortFindsTheInnerOfTwoAnswers) {
+TEST(CameraModel, UndistortAmbiguous_ReturnsInner) {
   CameraModel camera;
   camera.k1 = -0.3;  // r - 0.3 r³ grows up to r = 1.054 and falls after it
   const auto p = camera.undistort(camera.distort({0.9, 0}));
@@ -105,7 +106,7 @@ TEST(CameraModel, UndistortFindsTheInnerOfTwoAnswers) {
   EXPECT_NEAR(p->x, 0.9, 1e-9);
 }
 
-TEST(CameraModel, UndistortAdmitsThatThereIsNoAnswer) {
+TEST(CameraModel, UndistortImpossible_ReturnsNullopt) {
   CameraModel camera;
   camera.k1 = -0.3;  // never bends a ray beyond 0.703
   EXPECT_FALSE(camera.undistort({0.71, 0}).has_value());
@@ -114,7 +115,7 @@ TEST(CameraModel, UndistortAdmitsThatThereIsNoAnswer) {
 }
 
 // By hand: θ = π/4, so θ' = π/4 · (1 + k1·(π/4)²) for k1 alone.
-TEST(CameraModel, AFisheyeFollowsTheAngle) {
+TEST(CameraModel, Fisheye_FollowsAngle) {
   CameraModel camera;
   camera.lens = LensModel::kFisheye;
   const double quarter = std::numbers::pi / 4;
@@ -126,7 +127,7 @@ TEST(CameraModel, AFisheyeFollowsTheAngle) {
   EXPECT_EQ(camera.distort({0, 0}).x, 0);
 }
 
-TEST(CameraModel, AFisheyeHasNoAnswerBesideTheCamera) {
+TEST(CameraModel, FisheyeBeside_ReturnsNullopt) {
   CameraModel camera;
   camera.lens = LensModel::kFisheye;
   EXPECT_TRUE(camera.undistort({1.57, 0}).has_value());
@@ -134,11 +135,11 @@ TEST(CameraModel, AFisheyeHasNoAnswerBesideTheCamera) {
   EXPECT_FALSE(camera.undistort({std::nan(""), 0}).has_value());
 }
 
-TEST(CameraModel, DistortionListsKeepTheirOrderAndTheirZeros) {
+TEST(CameraModel, DistortionList_KeepsOrderAndZeros) {
   for (const CameraModel& camera : {webcam(), rational(), tilted(), fisheye()}) {
     CameraModel again{camera.image, camera.fx, camera.fy, camera.cx, camera.cy};
     again.lens = camera.lens;
-    again.s1 = 9;  // must go
+    again.s1 = 9;  // must be reset
     set_distortion(again, distortion_of(camera));
     EXPECT_EQ(again, camera);
   }

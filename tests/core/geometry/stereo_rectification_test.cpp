@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/geometry/stereo_rectification.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ std::optional<Point2> seen(const CameraModel& c, const Vector3& p) {
   return c.to_pixel(c.distort({p.x / p.z, p.y / p.z}));
 }
 
-TEST(StereoRectification, RotationVectorInvertsRotationAbout) {
+TEST(StereoRectification, RotationVector_InvertsRotationAbout) {
   for (const Vector3& v : {Vector3{0.3, -1.2, 0.7}, Vector3{1e-7, 2e-7, 0}, Vector3{0, 0, 0}}) {
     const Vector3 again = rotation_vector(rotation_about(v));
     EXPECT_NEAR(again.x, v.x, 1e-12);
@@ -32,7 +33,7 @@ TEST(StereoRectification, RotationVectorInvertsRotationAbout) {
   }
 }
 
-TEST(StereoRectification, RowsAlignAndDisparityIsDepth) {
+TEST(StereoRectification, Rows_AlignAndGiveDepth) {
   CameraModel fisheye = camera(280, 0.02);
   fisheye.lens = LensModel::kFisheye;
   for (const CameraModel& left : {camera(500, -0.2), fisheye}) {
@@ -62,7 +63,7 @@ TEST(StereoRectification, RowsAlignAndDisparityIsDepth) {
   }
 }
 
-TEST(StereoRectification, EveryPixelOfTheResultHasASource) {
+TEST(StereoRectification, EveryPixel_HasSource) {
   for (const double k1 : {-0.25, 0.15}) {
     const Calibration c = rectified_pair(camera(500, k1), camera(510, k1), crooked());
     for (const CameraCalibration* side : {&c.left, &c.right}) {
@@ -77,7 +78,7 @@ TEST(StereoRectification, EveryPixelOfTheResultHasASource) {
   }
 }
 
-TEST(StereoRectification, PoseComesBack) {
+TEST(StereoRectification, StereoPose_InvertsRectifiedPair) {
   const StereoPose pose = stereo_pose(rectified_pair(camera(500, -0.2), camera(505, -0.2), crooked()));
   for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(pose.rotation.m[i], crooked().rotation.m[i], 1e-12);
   EXPECT_NEAR(pose.translation_m.x, -0.1, 1e-12);
@@ -94,7 +95,7 @@ std::string refusal(const StereoPose& pose) {
   return "none";
 }
 
-TEST(StereoRectification, RefusesWhatIsNoPairSideBySide) {
+TEST(StereoRectification, NotSideBySide_Throws) {
   EXPECT_TRUE(refusal({{}, {0.1, 0, 0}}).starts_with("left and right are swapped"));
   EXPECT_TRUE(refusal({{}, {-0.05, 0.1, 0}}).starts_with("the cameras do not stand side by side"));
   EXPECT_TRUE(refusal({{}, {0, 0, 0}}).starts_with("the cameras do not stand side by side"));
@@ -120,7 +121,7 @@ int pixels_without_source(const CameraCalibration& c, Interpolation interpolatio
   return without;
 }
 
-TEST(StereoRectification, ZoomGoesFromOnlyValidPixelsToAllPixels) {
+TEST(StereoRectification, Alpha_FromValidToAllPixels) {
   for (const CameraModel& model : {camera(500, -0.2), camera(600, 0.1), fisheye_camera()}) {
     CameraModel right = model;
     right.cx += 15, right.fx *= 1.02;

@@ -1,8 +1,9 @@
-// Random images, sizes and options: every implementation, on every instruction set that this CPU has, gives
-// what the oracle gives.
+// SPDX-License-Identifier: BSD-3-Clause
+// With random images, sizes and options every implementation, on every instruction set of this CPU, equals
+// the oracle.
 //
-// STEREOD_TEST_CASES sets how many cases are tried, STEREOD_TEST_SEED the seed of the first. Each case has
-// its own seed, printed when it fails: STEREOD_TEST_SEED=<that> STEREOD_TEST_CASES=1 repeats it alone.
+// STEREOD_TEST_CASES sets the number of cases, STEREOD_TEST_SEED the seed of the first. Each case has a seed
+// of its own, printed on failure: STEREOD_TEST_SEED=<seed> STEREOD_TEST_CASES=1 repeats it alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +46,7 @@ Size random_size(Random& random, int window) {
     case 3:
       return {random.one_of(kPrimes), random.one_of(kPrimes)};
     case 4:
-      return {window + random.between(-1, 3), window + random.between(-1, 3)};  // hardly an answer fits
+      return {window + random.between(-1, 3), window + random.between(-1, 3)};  // room for few disparities
     case 5:
     case 6:
       return {random.between(150, 420), window + random.between(0, 6)};  // room for many disparities
@@ -96,7 +97,7 @@ MatcherOptions random_options(Random& random) {
   return options;
 }
 
-/// About how many differences the oracle takes for this.
+/// Returns the approximate number of differences that the oracle computes.
 double oracle_work(const Case& c) {
   const int columns = std::max(0, c.size.width - c.options.window + 1);
   const int rows = std::max(0, c.size.height - c.options.window + 1);
@@ -104,7 +105,7 @@ double oracle_work(const Case& c) {
          c.options.window;
 }
 
-/// A case whose oracle takes a few milliseconds, now and then a few dozen.
+/// Returns a case whose oracle takes a few milliseconds, sometimes a few dozen.
 Case random_case(Random& random) {
   const double limit = random.one_in(25) ? 50e6 : 4e6;
   while (true) {
@@ -116,7 +117,7 @@ Case random_case(Random& random) {
   }
 }
 
-TEST(MatcherAgreement, EveryImplementationGivesWhatTheOracleGives) {
+TEST(MatcherAgreement, EveryImplementation_EqualsOracle) {
   const std::uint64_t first_seed = number_from_environment("STEREOD_TEST_SEED", kFirstSeed);
   const std::uint64_t cases = number_from_environment("STEREOD_TEST_CASES", kCases);
   int failures = 0;
@@ -142,16 +143,16 @@ TEST(MatcherAgreement, EveryImplementationGivesWhatTheOracleGives) {
     }
   }
   if (cases >= 100) {
-    EXPECT_GT(valid_pixels, 100 * cases) << "the cases are too easy: hardly a pixel has an answer";
+    EXPECT_GT(valid_pixels, 100 * cases) << "the cases are too easy: few pixels have a disparity";
   }
   std::string isas;
   for (const Isa isa : isas_that_run()) isas.append(" ").append(name_of(isa));
   RecordProperty("instruction_sets", isas);
 }
 
-// A kernel holds disparities in vectors and chunks of 32 to 64; how the last of them are laid out depends on
-// their number alone.
-TEST(MatcherAgreement, EveryNumberOfDisparitiesInEveryArithmetic) {
+// A kernel holds disparities in vectors and chunks of 32 to 64; the layout of the last ones depends on their
+// number alone.
+TEST(MatcherAgreement, EveryDisparityCount_EqualsOracle) {
   Random random(kFirstSeed);
   const int step = kSanitized || std::getenv("STEREOD_TEST_CASES") != nullptr ? 7 : 1;
   for (int disparities = 1; disparities <= 131 && !testing::Test::HasFailure(); disparities += step) {

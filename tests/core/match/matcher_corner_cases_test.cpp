@@ -1,4 +1,5 @@
-// The matcher where it is most likely to go wrong: ties, overflow, borders, thin bands, memory used again.
+// SPDX-License-Identifier: BSD-3-Clause
+// Corner cases of the matchers: ties, overflow, borders, thin bands, reused memory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ MatcherOptions options_with(int disparities, int window, Prefilter prefilter) {
   return options;
 }
 
-/// Every test and filter that a band matcher can do on its own; the texture test needs the prefilter.
+/// All checks and filters of a band matcher; the texture check needs the prefilter.
 MatcherOptions everything(int disparities, int window, Prefilter prefilter = Prefilter::kXsobel) {
   MatcherOptions options = options_with(disparities, window, prefilter);
   if (prefilter == Prefilter::kXsobel) options.texture_threshold = window * window;
@@ -51,7 +52,7 @@ int valid_pixels(DisparityView image) {
   return valid;
 }
 
-TEST(MatcherCorners, OnTiesTheLowestDisparityWins) {
+TEST(MatcherCorners, Tie_LowestDisparityWins) {
   const StereoPair pair = random_pair(Content::kConstant, {70, 15}, 1);
   for (const Prefilter prefilter : {Prefilter::kNone, Prefilter::kXsobel}) {
     for (const int disparities : {1, 15, 16, 17, 33, 64}) {
@@ -64,8 +65,8 @@ TEST(MatcherCorners, OnTiesTheLowestDisparityWins) {
   }
 }
 
-TEST(MatcherCorners, SumsBeyond16BitsDoNotOverflow) {
-  // 31 × 31 × 255 = 245055. The seeds give each of the patterns at least once.
+TEST(MatcherCorners, SumsBeyond16Bits_NoOverflow) {
+  // 31 × 31 × 255 = 245055. The seeds give each pattern at least once.
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const StereoPair pair = random_pair(Content::kExtremes, {60, 34}, seed);
     for (const int window : {17, 31}) {
@@ -79,9 +80,9 @@ TEST(MatcherCorners, SumsBeyond16BitsDoNotOverflow) {
   }
 }
 
-TEST(MatcherCorners, SumsOnBothSidesOfEveryPowerOfTwo) {
-  // A kernel chooses its arithmetic by the largest sum there can be, window² × 2 × cap. Caps just below and
-  // just above each limit, on content that comes close to that sum.
+TEST(MatcherCorners, SumsAroundPowersOfTwo_Agree) {
+  // A kernel chooses its arithmetic by the maximum sum, window² × 2 × cap. Caps just below and just above
+  // each limit, on content that comes close to that sum.
   for (const int window : {3, 5, 7, 9, 11, 13, 15, 17, 21, 23, 25, 31}) {
     for (int limit = 1 << 12; limit <= 1 << 16; limit *= 2) {
       const int above = (limit + 2 * window * window - 1) / (2 * window * window);
@@ -98,7 +99,7 @@ TEST(MatcherCorners, SumsOnBothSidesOfEveryPowerOfTwo) {
   }
 }
 
-TEST(MatcherCorners, MoreDisparitiesThanColumns) {
+TEST(MatcherCorners, MoreDisparitiesThanColumns_Agree) {
   for (const int width : {9, 16, 31, 40}) {
     const StereoPair pair = random_pair(Content::kNoise, {width, 12}, 4);
     expect_agreement(pair, options_with(256, 5, Prefilter::kNone));
@@ -106,7 +107,7 @@ TEST(MatcherCorners, MoreDisparitiesThanColumns) {
   }
 }
 
-TEST(MatcherCorners, MinDisparityBeyondTheImageLeavesNothing) {
+TEST(MatcherCorners, MinDisparityBeyondImage_Agree) {
   const StereoPair pair = random_pair(Content::kNoise, {40, 12}, 5);
   for (const int min : {35, 36, 37, 39, 40, 41, 1024}) {
     MatcherOptions options = options_with(20, 5, Prefilter::kXsobel);
@@ -115,7 +116,7 @@ TEST(MatcherCorners, MinDisparityBeyondTheImageLeavesNothing) {
   }
 }
 
-TEST(MatcherCorners, WindowLargerThanTheImageLeavesNothing) {
+TEST(MatcherCorners, WindowLargerThanImage_AllInvalid) {
   for (const Size size : {Size{30, 40}, Size{40, 30}, Size{5, 5}, Size{31, 1}, Size{1, 31}}) {
     const StereoPair pair = random_pair(Content::kNoise, size, 6);
     const MatcherOptions options = options_with(16, 31, Prefilter::kXsobel);
@@ -125,20 +126,20 @@ TEST(MatcherCorners, WindowLargerThanTheImageLeavesNothing) {
   }
 }
 
-TEST(MatcherCorners, WindowExactlyTheImageLeavesOnePixel) {
+TEST(MatcherCorners, WindowEqualsImage_OnePixelValid) {
   const StereoPair pair = random_pair(Content::kNoise, {31, 31}, 7);
   const MatcherOptions options = options_with(16, 31, Prefilter::kXsobel);
   ASSERT_EQ(valid_pixels(oracle_match(pair.left.view(), pair.right.view(), options).view()), 1);
   expect_agreement(pair, options);
 }
 
-TEST(MatcherCorners, OnePixel) {
+TEST(MatcherCorners, OnePixel_Agrees) {
   const StereoPair pair = random_pair(Content::kNoise, {1, 1}, 8);
   expect_agreement(pair, options_with(1, 3, Prefilter::kNone));
   expect_agreement(pair, everything(64, 11));
 }
 
-TEST(MatcherCorners, BandsThinnerThanTheirHalo) {
+TEST(MatcherCorners, BandsThinnerThanHalo_Agree) {
   for (const int height : {11, 12, 17, 23}) {
     const StereoPair pair = random_pair(Content::kSlantedPair, {47, height}, 9);
     MatcherOptions options = everything(20, 11);
@@ -150,7 +151,8 @@ TEST(MatcherCorners, BandsThinnerThanTheirHalo) {
   }
 }
 
-/// Feeds one band, writing up to `ahead` rows before they are pushed, and puts the answer into `out`.
+/// Matches one band, writing up to @p ahead rows before they are pushed, and writes its disparities to @p
+/// out.
 testing::AssertionResult match_band(BandMatcher& matcher, const StereoPair& pair, RowRange band, int ahead,
                                     ImageView<std::int16_t> out) {
   const RowRange input = matcher.begin(band);
@@ -176,28 +178,28 @@ testing::AssertionResult match_band(BandMatcher& matcher, const StereoPair& pair
   return testing::AssertionSuccess();
 }
 
-/// Matches bands of any height, in any order, of many frames, with one band matcher.
+/// Matches bands of any height, in any order, of several frames, with one band matcher.
 void use_again_and_again(const MatcherOptions& options, Size size, Random& random) {
   const auto matcher = make_band_matcher(options, size);
   for (int frame = 0; frame < 6; ++frame) {
     const StereoPair pair = random_pair(random.one_of(kAllContents), size, random.next());
     const DisparityImage oracle = oracle_match(pair.left.view(), pair.right.view(), options);
-    DisparityImage answer(size);
-    copy_pixels(oracle.view(), answer.view());  // the rows of no band
+    DisparityImage disparities(size);
+    copy_pixels(oracle.view(), disparities.view());  // for the rows outside all bands
     for (int i = 0; i < 6; ++i) {
       const int first = random.between(0, size.height - 1);
       const RowRange band{first, random.between(first + 1, size.height)};
       const int ahead = random.between(1, BandMatcher::kRowsAhead);
-      ASSERT_TRUE(match_band(*matcher, pair, band, ahead, answer.view()))
+      ASSERT_TRUE(match_band(*matcher, pair, band, ahead, disparities.view()))
           << band.first << " to " << band.end << ": " << describe(options);
-      ASSERT_TRUE(same_disparities(oracle, answer.view()))
+      ASSERT_TRUE(same_disparities(oracle, disparities.view()))
           << "band " << band.first << " to " << band.end << ", " << ahead
           << " rows ahead: " << describe(options);
     }
   }
 }
 
-TEST(MatcherCorners, ABandMatcherUsedAgainGivesWhatAFreshOneGives) {
+TEST(MatcherCorners, MatcherReused_EqualsFresh) {
   Random random(10);
   for (const int window : {3, 11, 19}) {
     for (const Prefilter prefilter : {Prefilter::kNone, Prefilter::kXsobel}) {
@@ -208,7 +210,7 @@ TEST(MatcherCorners, ABandMatcherUsedAgainGivesWhatAFreshOneGives) {
   }
 }
 
-TEST(MatcherCorners, ABandGivenUpHalfWayLeavesNoTrace) {
+TEST(MatcherCorners, BandAbandoned_LeavesNoTrace) {
   const Size size{50, 30};
   const StereoPair first = random_pair(Content::kNoise, size, 11);
   const StereoPair second = random_pair(Content::kSlantedPair, size, 12);
@@ -220,30 +222,31 @@ TEST(MatcherCorners, ABandGivenUpHalfWayLeavesNoTrace) {
       std::copy_n(first.right.row(y), size.width, matcher->right_row(y));
       matcher->push(y);
     }
-    DisparityImage answer(size);
-    ASSERT_TRUE(match_band(*matcher, second, {0, size.height}, 1, answer.view()));
+    DisparityImage disparities(size);
+    ASSERT_TRUE(match_band(*matcher, second, {0, size.height}, 1, disparities.view()));
     EXPECT_TRUE(
-        same_disparities(oracle_match(second.left.view(), second.right.view(), options), answer.view()))
+        same_disparities(oracle_match(second.left.view(), second.right.view(), options), disparities.view()))
         << describe(options);
   }
 }
 
-TEST(MatcherCorners, MatchingAllocatesNothing) {
+TEST(MatcherCorners, Match_AllocatesNothing) {
   if (!AllocationCounter::supported()) GTEST_SKIP() << "allocations cannot be counted in this build";
   const Size size{90, 40};
   const StereoPair pair = random_pair(Content::kSlantedPair, size, 13);
-  DisparityImage answer(size);
+  DisparityImage disparities(size);
   MatcherOptions all = everything(32, 9);
   all.speckle_size = 30;
   for (const MatcherOptions& options : implementations_of(all)) {
     FrameMatcher matcher(options, size, pool_of(3));
     const AllocationCounter counter;
-    for (int frame = 0; frame < 5; ++frame) matcher.match(pair.left.view(), pair.right.view(), answer.view());
+    for (int frame = 0; frame < 5; ++frame)
+      matcher.match(pair.left.view(), pair.right.view(), disparities.view());
     EXPECT_EQ(counter.count(), 0U) << describe(options);
   }
 }
 
-TEST(MatcherCorners, RefusesOptionsThatCannotBe) {
+TEST(MatcherCorners, BadOptions_Throw) {
   MatcherOptions options;
   options.window = 4;
   EXPECT_THROW(FrameMatcher(options, {64, 48}, pool_of(1)), std::invalid_argument);
@@ -255,7 +258,7 @@ TEST(MatcherCorners, RefusesOptionsThatCannotBe) {
   }
 }
 
-TEST(MatcherCorners, RefusesImagesThatAreTooLargeOrNone) {
+TEST(MatcherCorners, BadImageSize_Throws) {
   const MatcherOptions options;
   EXPECT_NO_THROW(make_band_matcher(options, {32767, 8}));
   for (const Size size : {Size{32768, 8}, Size{8, 32768}, Size{0, 8}, Size{8, 0}}) {
@@ -263,41 +266,10 @@ TEST(MatcherCorners, RefusesImagesThatAreTooLargeOrNone) {
   }
 }
 
-TEST(MatcherCorners, AutomaticChoiceIsAmongTheInstructionSetsThatRun) {
+TEST(MatcherCorners, IsaAuto_Runs) {
   const std::vector<Isa>& isas = isas_that_run();
   EXPECT_NE(std::find(isas.begin(), isas.end(), Isa::kAuto), isas.end());
   EXPECT_NE(std::find(isas.begin(), isas.end(), Isa::kScalar), isas.end());
-}
-
-// At 640×480 with 64 disparities a worker's memory fits in a second-level cache of 1 MiB, or in half of one
-// that is shared by two with the small mode.
-TEST(MatcherCorners, ScratchMemoryIsSmall) {
-  constexpr std::size_t kMiB = 1024 * 1024;
-  std::vector<std::pair<std::string, MatcherOptions>> settings;
-  for (const char* preset : {"thesis", "fast", "robust"})
-    settings.emplace_back(preset, *matcher_preset(preset));
-  settings.emplace_back("thesis with 17 x 17", *matcher_preset("thesis"));
-  settings.back().second.window = 17;  // whose costs do not fit in 16 bits
-  for (auto& [preset, options] : settings) {
-    options.cache = CacheUse::kLarge;
-    const std::size_t large = make_band_matcher(options, {640, 480})->scratch_bytes();
-    options.cache = CacheUse::kSmall;
-    const std::size_t small = make_band_matcher(options, {640, 480})->scratch_bytes();
-    EXPECT_LT(large, kMiB) << preset;
-    EXPECT_LT(small, kMiB / 2) << preset;
-    RecordProperty(preset, std::to_string(large) + " and " + std::to_string(small) + " bytes");
-  }
-}
-
-TEST(MatcherCorners, SemiglobalScratchMemoryIsSmaller) {
-  for (const Isa isa : {Isa::kAuto, Isa::kScalar}) {  // vectors of 32 bytes, where there are such, and of 16
-    for (const auto& [preset, most] :
-         {std::pair("robust", 300'000U), {"dense", 300'000U}, {"fine", 550'000U}}) {
-      MatcherOptions options = *matcher_preset(preset);
-      options.isa = isa;
-      EXPECT_LE(make_band_matcher(options, {640, 480})->scratch_bytes(), most) << preset;
-    }
-  }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Pixels without a source in the camera's image get no answer, nor do those that match one.
+// SPDX-License-Identifier: BSD-3-Clause
+// Pixels without a source in the camera image, or whose match has none, are invalid.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -22,7 +23,7 @@ MatcherOptions options_with(int min_disparity, int disparities) {
   return options;
 }
 
-/// Whole rows, rows with a border, and rows with holes anywhere.
+/// A mask with whole rows, rows with a border, and rows with random holes.
 ValidityMask mask_of(std::uint64_t seed) {
   Random random(seed);
   return {kSize, [&](int x, int y) {
@@ -40,7 +41,7 @@ DisparityImage match(const StereoPair& pair, const MatcherOptions& options, cons
   return out;
 }
 
-TEST(MatcherMask, InvalidatesPixelsWithoutSourceAndTheirMatches) {
+TEST(MatcherMask, NoSource_InvalidatesPixelAndMatch) {
   const ValidityMask left = mask_of(1);
   const ValidityMask right = mask_of(2);
   for (const MatcherOptions& base : {options_with(0, 20), options_with(7, 33)}) {
@@ -65,7 +66,7 @@ TEST(MatcherMask, InvalidatesPixelsWithoutSourceAndTheirMatches) {
   }
 }
 
-TEST(MatcherMask, IsForgottenWhenTakenAway) {
+TEST(MatcherMask, Removed_HasNoEffect) {
   const StereoPair pair = random_pair(Content::kSlantedPair, kSize, 6);
   const MatcherOptions options = options_with(0, 20);
   const ValidityMask nothing(kSize, [](int, int) { return false; });

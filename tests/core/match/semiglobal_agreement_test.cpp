@@ -1,5 +1,6 @@
-// Random images, sizes, options, masks and bands: the semi-global kernel, on every instruction set that
-// this CPU has, gives what the definition gives.
+// SPDX-License-Identifier: BSD-3-Clause
+// With random images, sizes, options, masks and bands the semi-global kernel, on every instruction set of
+// this CPU, equals the reference.
 //
 // STEREOD_TEST_CASES and STEREOD_TEST_SEED as in matcher_agreement_test.cpp.
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ std::uint64_t number_from_environment(const char* name, std::uint64_t otherwise)
 struct Case {
   Size size;
   MatcherOptions options;
-  StereoPair pair, before;  // before: what the matcher has matched already, or empty
+  StereoPair pair, before;  // before: the pair matched before, or empty
   std::optional<ValidityMask> left_mask, right_mask;
 };
 
@@ -112,7 +113,7 @@ DisparityImage match_frame(const Case& c, const MatcherOptions& options, int wor
   return found;
 }
 
-/// Band after band from the bottom by one matcher, as a worker of the daemon does it: rows are written before
+/// Matches bands from the bottom up with one matcher, as a worker of the daemon does: rows are written before
 /// they are pushed.
 DisparityImage match_bands(const Case& c, const MatcherOptions& options, int bands) {
   DisparityImage found(c.size);
@@ -137,7 +138,7 @@ DisparityImage match_bands(const Case& c, const MatcherOptions& options, int ban
   return found;
 }
 
-TEST(SemiglobalAgreement, EveryKernelGivesWhatTheDefinitionGives) {
+TEST(SemiglobalAgreement, EveryKernel_EqualsReference) {
   const std::uint64_t first_seed = number_from_environment("STEREOD_TEST_SEED", kFirstSeed);
   const std::uint64_t cases = number_from_environment("STEREOD_TEST_CASES", kCases);
   int failures = 0;
@@ -146,22 +147,21 @@ TEST(SemiglobalAgreement, EveryKernelGivesWhatTheDefinitionGives) {
   for (std::uint64_t seed = first_seed; seed < first_seed + cases && failures < kFailuresShown; ++seed) {
     const Case c = random_case(seed);
     ASSERT_EQ(problem_with(c.options), std::nullopt);
-    const DisparityImage unfiltered =
-        semiglobal_by_definition(c.pair.left.view(), c.pair.right.view(), c.options, pointer_to(c.left_mask),
-                                 pointer_to(c.right_mask));
-    const DisparityImage defined = oracle_speckle(unfiltered, c.options.speckle_size,
-                                                  c.options.speckle_max_diff * c.options.units_per_pixel());
+    const DisparityImage unfiltered = semiglobal_reference(c.pair.left.view(), c.pair.right.view(), c.options,
+                                                           pointer_to(c.left_mask), pointer_to(c.right_mask));
+    const DisparityImage reference = oracle_speckle(unfiltered, c.options.speckle_size,
+                                                    c.options.speckle_max_diff * c.options.units_per_pixel());
     for (int y = 0; y < c.size.height; ++y) {
       for (int x = 0; x < c.size.width; ++x) {
-        measured += defined.at(x, y) >= 0 ? 1 : 0;
-        filled += is_filled(defined.at(x, y)) ? 1 : 0;
+        measured += reference.at(x, y) >= 0 ? 1 : 0;
+        filled += is_filled(reference.at(x, y)) ? 1 : 0;
       }
     }
     Random random(seed);
     for (const MatcherOptions& options : implementations_of(c.options)) {
       const int workers = random.between(1, 5);
       const int bands = random.between(1, std::min(c.size.height, 6));
-      testing::AssertionResult same = same_disparities(defined, match_frame(c, options, workers).view());
+      testing::AssertionResult same = same_disparities(reference, match_frame(c, options, workers).view());
       if (same) same = same_disparities(unfiltered, match_bands(c, options, bands).view());
       if (!same) ++failures;
       EXPECT_TRUE(same) << "  seed " << seed << ", " << c.size.width << "x" << c.size.height << ", "
@@ -176,7 +176,7 @@ TEST(SemiglobalAgreement, EveryKernelGivesWhatTheDefinitionGives) {
   }
 }
 
-TEST(SemiglobalAgreement, PicturesWithoutRoomBesideThemAreNotLeft) {
+TEST(SemiglobalAgreement, TightImages_StayInMemory) {
   MatcherOptions base;
   base.method = Method::kSemiglobal;
   base.left_right_max_diff = 1;
@@ -185,10 +185,10 @@ TEST(SemiglobalAgreement, PicturesWithoutRoomBesideThemAreNotLeft) {
     for (const int disparities : {1, 47, 64, 200}) {
       base.disparities = disparities;
       const StereoPair pair = random_pair(Content::kSlantedPair, size, 11);
-      const DisparityImage defined =
-          semiglobal_by_definition(pair.left.view(), pair.right.view(), base, nullptr, nullptr);
+      const DisparityImage reference =
+          semiglobal_reference(pair.left.view(), pair.right.view(), base, nullptr, nullptr);
       for (const MatcherOptions& options : implementations_of(base)) {
-        EXPECT_TRUE(agrees(defined, pair, {}, options, 2)) << describe(options);
+        EXPECT_TRUE(agrees(reference, pair, {}, options, 2)) << describe(options);
       }
     }
   }

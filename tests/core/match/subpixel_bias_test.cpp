@@ -1,9 +1,10 @@
-// The interpolation is not drawn to whole numbers: a textured plane of known disparity is swept through parts
-// of a pixel.
+// SPDX-License-Identifier: BSD-3-Clause
+// The interpolation is not biased to whole numbers: a textured plane of known disparity is swept through
+// fractions of a pixel.
 //
-// What the bounds rest on (tests/bench/subpixel_sweep, no noise / 4 gray levels): the largest mean error at
-// any part of a pixel is below 0.015 / 0.012 px, and 6.8 / 5.6 % of the answers are whole numbers, where 1/16
-// = 6.25 % should be. A parabola through the same costs has 0.10 / 0.08 px and 12.8 / 10.8 %, and fails here.
+// Source of the bounds (tests/bench/subpixel_sweep, no noise / 4 gray levels): the maximum mean error at any
+// fraction is below 0.015 / 0.012 px, and 6.8 / 5.6 % of the disparities are whole numbers (ideal: 1/16 =
+// 6.25 %). A parabola through the same costs has 0.10 / 0.08 px and 12.8 / 10.8 %, and fails here.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +16,8 @@
 namespace stereod {
 namespace {
 
-constexpr double kMaxMeanError = 0.03;  // px
-constexpr double kMinShare = 0.045;     // of the answers, at each sixteenth of a pixel
+constexpr double kMaxMeanError = 0.03;  // [px]
+constexpr double kMinShare = 0.045;     // of the disparities, at each sixteenth of a pixel
 constexpr double kMaxShare = 0.08;
 
 SubpixelBias bias_with(Prefilter prefilter, double noise) {
@@ -45,11 +46,11 @@ void expect_unbiased(const SubpixelBias& bias) {
   }
 }
 
-TEST(SubpixelBias, OfGradientsIsSmall) { expect_unbiased(bias_with(Prefilter::kXsobel, 0)); }
+TEST(SubpixelBias, Gradients_Small) { expect_unbiased(bias_with(Prefilter::kXsobel, 0)); }
 
-TEST(SubpixelBias, OfNoisyGradientsIsSmall) { expect_unbiased(bias_with(Prefilter::kXsobel, 4)); }
+TEST(SubpixelBias, NoisyGradients_Small) { expect_unbiased(bias_with(Prefilter::kXsobel, 4)); }
 
-TEST(SubpixelBias, OfGrayValuesIsSmall) { expect_unbiased(bias_with(Prefilter::kNone, 0)); }
+TEST(SubpixelBias, GrayValues_Small) { expect_unbiased(bias_with(Prefilter::kNone, 0)); }
 
 }  // namespace
 }  // namespace stereod

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/perception/epipolar_probe.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ namespace {
 constexpr Size kSize{320, 240};
 constexpr double kDisparity = 17.3;
 
-// Hills of all sizes from 3 px up: something to hold on to everywhere, in both directions.
+// Bumps of all sizes from 3 px up: texture everywhere, in both directions.
 class Texture {
  public:
   Texture() : grid_(kGrid * kGrid) {
@@ -40,8 +41,8 @@ class Texture {
   std::vector<float> grid_;
 };
 
-// The right image shows what the left one shows kDisparity further left and `down` rows further down,
-// darker and with less contrast.
+// The right image shows the left one shifted by kDisparity to the left and `down` rows down, darker and with
+// less contrast.
 template <typename Down>
 void draw(GrayImage& left, GrayImage& right, Down down) {
   const Texture texture;
@@ -76,7 +77,7 @@ Probed probed(const GrayImage& left, const GrayImage& right, int frames = 100,
   return all;
 }
 
-TEST(EpipolarProbe, MeasuresByHowManyRowsPicturesAreApart) {
+TEST(EpipolarProbe, ShiftedRows_MeasuresError) {
   GrayImage left(kSize), right(kSize);
   for (const double down : {0.0, 0.4, -1.5, 3.0, -9.3}) {
     draw(left, right, [down](int) { return down; });
@@ -94,8 +95,8 @@ TEST(EpipolarProbe, MeasuresByHowManyRowsPicturesAreApart) {
   }
 }
 
-// What a near search finds is the same; what lies beyond it is missed, not mistaken.
-TEST(EpipolarProbe, SearchesNearWhereThatWillDo) {
+// A near search finds the same matches; those beyond its reach are missed, not mismatched.
+TEST(EpipolarProbe, NearReach_EqualsFarWithinReach) {
   GrayImage left(kSize), right(kSize);
   for (const double down : {0.0, 0.4, -1.2}) {
     draw(left, right, [down](int) { return down; });
@@ -114,17 +115,17 @@ TEST(EpipolarProbe, SearchesNearWhereThatWillDo) {
   }
 }
 
-TEST(EpipolarProbe, ATurnedCameraIsNotEvenedOut) {
+TEST(EpipolarProbe, TurnedCamera_ErrorDoesNotCancel) {
   GrayImage left(kSize), right(kSize);
   draw(left, right, [](int x) { return 0.02 * (x - kSize.width / 2); });  // 3 px at either side
   const auto found = epipolar_error(probed(left, right).matches, kSize);
   ASSERT_TRUE(found.has_value());
   EXPECT_GT(found->epipolar_error_px, 1.2);
   EXPECT_GT(found->epipolar_error_px,
-            std::abs(found->row_offset_px) + 0.5);  // what is common to all does not show it
+            std::abs(found->row_offset_px) + 0.5);  // the common offset does not show it
 }
 
-TEST(EpipolarProbe, SaysThatNothingIsLikeIt) {
+TEST(EpipolarProbe, NothingSimilar_CountsAbsent) {
   GrayImage left(kSize), right(kSize);
   draw(left, right, [](int) { return 90.0; });
   const Probed beyond = probed(left, right);
@@ -137,31 +138,31 @@ TEST(EpipolarProbe, SaysThatNothingIsLikeIt) {
   EXPECT_GT(covered.absent, 200);
 }
 
-TEST(EpipolarProbe, IsNotTakenInByWhatLooksAlikeEverywhere) {
+TEST(EpipolarProbe, Repetitive_FindsNothing) {
   GrayImage flat(kSize), stripes(kSize), checks(kSize);
   for (int y = 0; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
       flat.at(x, y) = static_cast<std::uint8_t>(100 + (x * 7 + y * 13) % 3);
-      stripes.at(x, y) = static_cast<std::uint8_t>((x + y) / 9 % 2 * 150 + 40);  // no end in sight along them
+      stripes.at(x, y) = static_cast<std::uint8_t>((x + y) / 9 % 2 * 150 + 40);  // endless along the stripes
       checks.at(x, y) = static_cast<std::uint8_t>((x / 7 + y / 7) % 2 * 150 + 40);
     }
   }
-  for (const GrayImage* picture : {&flat, &stripes, &checks}) {
-    const Probed all = probed(*picture, *picture);
+  for (const GrayImage* image : {&flat, &stripes, &checks}) {
+    const Probed all = probed(*image, *image);
     EXPECT_EQ(all.matches.size(), 0U);
     EXPECT_EQ(all.absent, 0);
   }
 }
 
-TEST(EpipolarProbe, SmallPicturesAreLeftAlone) {
+TEST(EpipolarProbe, SmallImage_FindsNothing) {
   for (const Size size : {Size{1, 1}, Size{47, 100}, Size{100, 23}, Size{48, 24}, Size{50, 30}}) {
     GrayImage left(size), right(size);
     EXPECT_EQ(probed(left, right, 20).matches.size(), 0U);
   }
 }
 
-// Where the right image has no source, nothing is found, however alike the zeros there are.
-TEST(EpipolarProbe, LooksOnlyWherePixelsHaveASource) {
+// Where the right image has no source nothing is found, although the zeros there are similar.
+TEST(EpipolarProbe, NoSource_FindsNothing) {
   GrayImage left(kSize), right(kSize);
   draw(left, right, [](int) { return 0.0; });
   const RectifyMap map = RectifyMap::identity({kSize, left.view().stride(), 1});
@@ -176,7 +177,7 @@ TEST(EpipolarProbe, LooksOnlyWherePixelsHaveASource) {
   }
 }
 
-TEST(EpipolarError, IsClearFromAFewPointsThatAgree) {
+TEST(EpipolarError, FewPointsAgree_IsClear) {
   std::vector<EpipolarMatch> matches;
   for (int i = 0; i < 11; ++i) matches.push_back({10, 10, i % 2 == 0 ? 4.0F : -4.0F, 5});  // a turned camera
   EXPECT_FALSE(clear_misalignment(matches).has_value());
@@ -189,7 +190,7 @@ TEST(EpipolarError, IsClearFromAFewPointsThatAgree) {
   EXPECT_FALSE(clear_misalignment(matches).has_value()) << "11 of 14 are less than four fifths";
 }
 
-TEST(EpipolarError, NeedsPointsEnough) {
+TEST(EpipolarError, TooFewPoints_ReturnsNullopt) {
   std::vector<EpipolarMatch> matches;
   for (int i = 0; i < 39; ++i) matches.push_back({10, 10, 1, 5});
   EXPECT_FALSE(epipolar_error(matches, kSize).has_value());

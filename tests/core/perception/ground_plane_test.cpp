@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/perception/ground_plane.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ std::optional<GroundPlane> fitted(const ScanGeometry& camera, const DisparityIma
   return fit.finish();
 }
 
-TEST(GroundFit, FindsHeightAndPitchAmongObstaclesAndNoise) {
+TEST(GroundFit, ObstaclesAndNoise_FindsPlane) {
   Random random(5);
   for (const double height : {0.15, 0.3, 0.8}) {
     for (const double pitch : {-0.05, 0.0, 0.2, 0.4}) {
@@ -40,11 +41,11 @@ TEST(GroundFit, FindsHeightAndPitchAmongObstaclesAndNoise) {
   }
 }
 
-TEST(GroundFit, FindsNoneWhereThereIsNone) {
+TEST(GroundFit, NoGround_ReturnsNullopt) {
   const ScanGeometry camera = floor_camera();
   DisparityImage image(camera.size);
   for (int y = 0; y < image.height(); ++y) std::fill_n(image.row(y), image.width(), kInvalidDisparity);
-  EXPECT_FALSE(fitted(camera, image));  // nothing is seen
+  EXPECT_FALSE(fitted(camera, image));  // no disparities
   for (int y = 0; y < image.height(); ++y) std::fill_n(image.row(y), image.width(), std::int16_t{320});
   EXPECT_FALSE(fitted(camera, image));  // a wall
   Random random(6);

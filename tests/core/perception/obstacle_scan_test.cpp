@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/perception/obstacle_scan.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +16,7 @@ namespace {
 
 const GroundPlane kGround{0.3, 0.0};
 
-/// The nearest range of the rays that look at a post, and infinity if one of those in its middle sees none of
-/// it.
+/// Returns the minimum range of the rays that hit a post, or infinity if one of the middle ones misses it.
 void expect_post(const ScanResult& result, const ScanGeometry& camera, const Post& post) {
   const double bearing = std::atan2(post.left, post.forward);
   const double half = std::atan2(post.half_width, post.forward) - 1.5 * static_cast<double>(result.step_rad);
@@ -41,7 +41,7 @@ int obstacles(const ScanResult& result) {
       std::count_if(result.support.begin(), result.support.end(), [](float s) { return s > 0; }));
 }
 
-TEST(ObstacleScan, FindsPostsAtTheirDistancesUnderAnyPitch) {
+TEST(ObstacleScan, PostsAtAnyPitch_FoundAtDistance) {
   const ScanGeometry camera = floor_camera();
   const std::vector<Post> posts = {
       {0.8, 0.1, 0.08, 0, 0.4}, {1.5, -0.5, 0.1, 0, 0.6}, {2.2, 0.9, 0.15, 0, 0.8}};
@@ -54,7 +54,7 @@ TEST(ObstacleScan, FindsPostsAtTheirDistancesUnderAnyPitch) {
   }
 }
 
-TEST(ObstacleScan, FindsNothingOnAnEmptyFloor) {
+TEST(ObstacleScan, EmptyFloor_FindsNothing) {
   for (const double height : {0.1, 0.3, 1.2}) {
     for (const double pitch : {0.0, 0.2, 0.5}) {
       const ScanGeometry camera = floor_camera();
@@ -68,7 +68,7 @@ TEST(ObstacleScan, FindsNothingOnAnEmptyFloor) {
   }
 }
 
-TEST(ObstacleScan, PassesOverWhatIsLowAndUnderWhatIsHigh) {
+TEST(ObstacleScan, LowOrHigh_IsNoObstacle) {
   const ScanGeometry camera = floor_camera();
   ScanOptions options;
   options.min_obstacle_height_m = 0.1;
@@ -83,7 +83,7 @@ TEST(ObstacleScan, PassesOverWhatIsLowAndUnderWhatIsHigh) {
   EXPECT_TRUE(found(0.4, 0.6));
 }
 
-TEST(ObstacleScan, AsksForEnoughSupport) {
+TEST(ObstacleScan, TooLittleSupport_IsNoObstacle) {
   const ScanGeometry camera = floor_camera();
   ScanOptions options;
   options.rays = 1;
@@ -97,7 +97,7 @@ TEST(ObstacleScan, AsksForEnoughSupport) {
   EXPECT_EQ(obstacles(scan_of(*std::make_unique<ObstacleScan>(options, camera, kGround), image)), 0);
 }
 
-TEST(ObstacleScan, TakesTheNearestOfSeveralBehindEachOther) {
+TEST(ObstacleScan, SeveralBehind_TakesNearest) {
   const ScanGeometry camera = floor_camera();
   ObstacleScan scan({}, camera, kGround);
   const ScanResult result =
@@ -105,7 +105,7 @@ TEST(ObstacleScan, TakesTheNearestOfSeveralBehindEachOther) {
   EXPECT_NEAR(result.nearest_m, 1.0, 0.05);
 }
 
-TEST(ObstacleScan, SaysWhereTooLittleIsSeen) {
+TEST(ObstacleScan, TooFewDisparities_RangeIsZero) {
   const ScanGeometry camera = floor_camera();
   DisparityImage image = floor_disparity(camera, kGround, {});
   for (int y = 0; y < image.height(); ++y)
@@ -114,11 +114,11 @@ TEST(ObstacleScan, SaysWhereTooLittleIsSeen) {
   const ScanResult result = scan_of(scan, image);
   EXPECT_EQ(result.range_m.front(), 3.0F);  // the rightmost
   EXPECT_EQ(result.range_m.back(), 0.0F);
-  EXPECT_TRUE(result.stop);  // half of the way ahead is not seen
+  EXPECT_TRUE(result.stop);  // half of the directions ahead are unseen
   EXPECT_EQ(result.nearest_m, 0.0F);
   for (int y = 0; y < image.height(); ++y) std::fill_n(image.row(y), 320, kInvalidDisparity);
   EXPECT_TRUE(scan_of(scan, image).stop);  // blind
-  // At the border the way is free.
+  // The border of the way is free.
   image = floor_disparity(camera, kGround, {});
   for (int y = 0; y < image.height(); ++y) std::fill_n(image.row(y), 60, kInvalidDisparity);
   const ScanResult free = scan_of(scan, image);
@@ -127,7 +127,7 @@ TEST(ObstacleScan, SaysWhereTooLittleIsSeen) {
   EXPECT_EQ(free.nearest_m, 3.0F);
 }
 
-TEST(ObstacleScan, StopsForWhatStandsInTheWay) {
+TEST(ObstacleScan, ObstacleAhead_Stops) {
   const ScanGeometry camera = floor_camera();
   const auto result = [&](double forward, double left, double stop_distance) {
     ScanOptions options;
@@ -146,8 +146,8 @@ TEST(ObstacleScan, StopsForWhatStandsInTheWay) {
   EXPECT_FALSE(result(0.7, 0, 0).stop);
 }
 
-// Values that no camera gives: the scan has no opinion on them, but stays within its memory.
-TEST(ObstacleScan, SurvivesAnyDisparity) {
+// Values that no camera delivers: the result is undefined, but the scan stays within its memory.
+TEST(ObstacleScan, AnyDisparity_StaysInMemory) {
   const ScanGeometry camera = floor_camera({64, 48});
   ScanOptions options;
   options.rays = 1024;  // more than columns
@@ -161,7 +161,7 @@ TEST(ObstacleScan, SurvivesAnyDisparity) {
   }
 }
 
-TEST(ObstacleScan, AllocatesNothing) {
+TEST(ObstacleScan, AddAndFinish_AllocateNothing) {
   const ScanGeometry camera = floor_camera();
   const DisparityImage image = floor_disparity(camera, kGround, {{1.0, 0, 0.2, 0, 0.5}});
   ObstacleScan scan({}, camera, kGround);

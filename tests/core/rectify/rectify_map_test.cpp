@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/rectify/rectify_map.h"
 
 #include <gtest/gtest.h>
@@ -9,12 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "core/base/cpu.h"
-
 namespace stereod {
 namespace {
 
-// Memory of exactly `size` bytes, so that a sanitizer sees every byte read or written beyond it.
+// Memory of exactly `size` bytes, so that a sanitizer detects every access beyond it.
 std::unique_ptr<std::uint8_t[]> exact(std::size_t size, unsigned seed = 1) {
   std::mt19937 random(seed);
   std::unique_ptr<std::uint8_t[]> bytes(new std::uint8_t[size]);
@@ -27,7 +26,7 @@ std::size_t bytes_of(const SourceLayout& layout, std::ptrdiff_t pixel) {
                                   (layout.size.width - 1) * layout.pixel_stride + pixel);
 }
 
-// Turned so far that some pixels of every border come from outside.
+// Turned so that some pixels at every border lie outside the source.
 CameraCalibration tilted(Size size) {
   CameraCalibration c;
   const double f = 0.9 * size.width;
@@ -38,7 +37,7 @@ CameraCalibration tilted(Size size) {
   return c;
 }
 
-// Turned by so much that neighbors hardly ever move together.
+// Turned so far that neighbors rarely form runs.
 CameraCalibration slanted(Size size) {
   CameraCalibration c = tilted(size);
   c.rotation = rotation_about({0, 0, 0.8});
@@ -48,20 +47,20 @@ CameraCalibration slanted(Size size) {
 const std::vector<Size> sizes = {{1, 1},  {2, 1},  {1, 2},  {3, 5},   {7, 3},   {8, 8},
                                  {9, 17}, {16, 2}, {17, 5}, {31, 33}, {67, 41}, {300, 20}};
 
-// The definition: the offset's byte, or 0.
+// The reference: the byte at the offset, or 0.
 std::uint8_t expected(const RectifyMap& map, const std::uint8_t* source, int x, int y, int channel = 0) {
   const std::int32_t offset = map.offset(x, y);
   return offset < 0 ? std::uint8_t{0} : source[offset + channel];
 }
 
-TEST(RectifyMap, IdentityOffsetsFollowTheLayout) {
+TEST(RectifyMap, Identity_OffsetsFollowLayout) {
   const RectifyMap map = RectifyMap::identity({{5, 3}, 40, 2});
   for (int y = 0; y < 3; ++y) {
     for (int x = 0; x < 5; ++x) EXPECT_EQ(map.offset(x, y), 40 * y + 2 * x);
   }
 }
 
-TEST(RectifyMap, ShiftedProjectionTakesTheShiftedPixelAndZeroOutside) {
+TEST(RectifyMap, ShiftedProjection_ShiftsPixels) {
   CameraCalibration c;
   c.camera = {{10, 6}, 20, 20, 4, 3};
   c.projection = {20, 20, 2, 4};  // rectified (x, y) shows source (x + 2, y - 1)
@@ -73,7 +72,7 @@ TEST(RectifyMap, ShiftedProjectionTakesTheShiftedPixelAndZeroOutside) {
   }
 }
 
-TEST(RectifyMap, MaskSaysWhichPixelsHaveASource) {
+TEST(RectifyMap, Mask_MarksPixelsWithSource) {
   const RectifyMap map(tilted({67, 41}), {{67, 41}, 80, 1});
   const ValidityMask mask = map.mask();
   int without = 0;
@@ -89,7 +88,7 @@ TEST(RectifyMap, MaskSaysWhichPixelsHaveASource) {
   EXPECT_GT(without, 0);
 }
 
-TEST(RectifyMap, TakesTheNearestNeighbor) {
+TEST(RectifyMap, Nearest_TakesNearestPixel) {
   CameraCalibration c;
   c.camera = {{10, 1}, 20, 20, 4.4, 0};
   c.projection = {20, 20, 4, 0};
@@ -98,16 +97,16 @@ TEST(RectifyMap, TakesTheNearestNeighbor) {
   EXPECT_EQ(RectifyMap(c, {{10, 1}, 10, 1}).offset(3, 0), 4);
 }
 
-TEST(RectifyMap, NothingIsSeenBehindTheCamera) {
+TEST(RectifyMap, BehindCamera_HasNoSource) {
   CameraCalibration c = tilted({9, 9});
-  c.rotation = rotation_about({0, 3.14159265358979, 0});  // looks the other way
+  c.rotation = rotation_about({0, 3.14159265358979, 0});  // looks backward
   const RectifyMap map(c, {{9, 9}, 9, 1});
   for (int y = 0; y < 9; ++y) {
     for (int x = 0; x < 9; ++x) EXPECT_EQ(map.offset(x, y), -1);
   }
 }
 
-TEST(RectifyMap, GrayMovesEveryPixelOfEverySizeAndLayout) {
+TEST(RectifyMap, Gray_CopiesEverySizeAndLayout) {
   for (const Size size : sizes) {
     for (const std::ptrdiff_t pixel_stride : {1, 2, 3, 4}) {
       const SourceLayout layout{size, size.width * pixel_stride + 3, pixel_stride};
@@ -129,8 +128,8 @@ TEST(RectifyMap, GrayMovesEveryPixelOfEverySizeAndLayout) {
   }
 }
 
-// Both buffers end with their last pixel: moving one as four bytes would leave them.
-TEST(RectifyMap, ColorMovesEveryPixelAndNoByteBeyondTheLast) {
+// Both buffers end with the last pixel, so copying a pixel as four bytes would exceed them.
+TEST(RectifyMap, Color_WritesNothingPastEnd) {
   for (const Size size : sizes) {
     for (const std::ptrdiff_t pixel_stride : {3, 4}) {
       const SourceLayout layout{size, size.width * pixel_stride, pixel_stride};
@@ -157,8 +156,7 @@ TEST(RectifyMap, ColorMovesEveryPixelAndNoByteBeyondTheLast) {
   }
 }
 
-// The definition of bilinear interpolation, in steps of 1/32 px, from the source coordinates; nothing
-// outside.
+// The reference of bilinear interpolation in steps of 1/32 px, from the source coordinates; nullopt outside.
 std::optional<int> blended(const CameraCalibration& camera, const SourceLayout& layout,
                            const std::uint8_t* source, int x, int y) {
   const auto at = source_point(camera, {static_cast<double>(x), static_cast<double>(y)});
@@ -181,7 +179,7 @@ std::optional<int> blended(const CameraCalibration& camera, const SourceLayout& 
   return (sum + 512) / 1024;
 }
 
-TEST(RectifyMap, BilinearIsTheWeightedMeanOfFourPixels) {
+TEST(RectifyMap, Bilinear_IsWeightedMeanOfFour) {
   for (const Size size : sizes) {
     for (const std::ptrdiff_t pixel_stride : {1, 2, 4}) {
       const SourceLayout layout{size, size.width * pixel_stride + 3, pixel_stride};
@@ -205,36 +203,7 @@ TEST(RectifyMap, BilinearIsTheWeightedMeanOfFourPixels) {
   }
 }
 
-TEST(RectifyMap, EveryInstructionSetBlendsAlike) {
-  constexpr int kMax = 300;
-  const auto bytes = exact(std::size_t{4} * kMax);
-  std::mt19937 random(5);
-  std::vector<std::uint8_t> across(kMax), down(kMax);
-  for (int i = 0; i < kMax; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    across[at] = static_cast<std::uint8_t>(4 * (i < 33 ? static_cast<unsigned>(i) : random() % 33));
-    down[at] = static_cast<std::uint8_t>(i < 33 ? 32 : random() % 33);
-    if (i % 7 == 0) bytes[at] = 255, bytes[at + kMax] = 0;
-    if (i % 5 == 0) bytes[at + 2 * kMax] = 0, bytes[at + 3 * kMax] = 255;
-  }
-  const BlendRow row{bytes.get(),   bytes.get() + kMax, bytes.get() + 2 * kMax, bytes.get() + 3 * kMax,
-                     across.data(), down.data()};
-  for (const Isa isa : available_isas()) {
-    for (const int count : {1, 7, 16, 33, kMax}) {
-      std::vector<std::uint8_t> out(static_cast<std::size_t>(count) + 1, 77);
-      blend_for(isa)(row, count, out.data());
-      for (int i = 0; i < count; ++i) {
-        const int a = across[static_cast<std::size_t>(i)] / 4, d = down[static_cast<std::size_t>(i)];
-        const int sum = (32 - d) * ((32 - a) * row.top_left[i] + a * row.top_right[i]) +
-                        d * ((32 - a) * row.bottom_left[i] + a * row.bottom_right[i]);
-        ASSERT_EQ(int{out[static_cast<std::size_t>(i)]}, (sum + 512) / 1024) << name_of(isa) << ' ' << i;
-      }
-      EXPECT_EQ(out.back(), 77) << name_of(isa);
-    }
-  }
-}
-
-TEST(RectifyMap, TablesAreSmall) {
+TEST(RectifyMap, Table_IsSmall) {
   const Size size{640, 480};
   for (const CameraCalibration& camera : {tilted(size), slanted(size)}) {
     for (const std::ptrdiff_t pixel_stride : {1, 3}) {
@@ -245,7 +214,7 @@ TEST(RectifyMap, TablesAreSmall) {
   EXPECT_LE(RectifyMap(tilted(size), {size, 640, 1}, Interpolation::kBilinear).bytes(), 1'300'000U);
 }
 
-TEST(RectifyMap, RowsOutsideTheRangeStayUntouched) {
+TEST(RectifyMap, RowsOutsideRange_StayUntouched) {
   const Size size{31, 9};
   const RectifyMap gray(tilted(size), {size, 31, 1});
   const RectifyMap color(tilted(size), {size, 93, 3});
@@ -266,7 +235,7 @@ TEST(RectifyMap, RowsOutsideTheRangeStayUntouched) {
   }
 }
 
-TEST(RectifyMap, ResultDoesNotDependOnTheNumberOfWorkers) {
+TEST(RectifyMap, Result_IndependentOfWorkers) {
   for (const Size size : sizes) {
     const RectifyMap gray(tilted(size), {size, size.width, 1});
     const RectifyMap color(tilted(size), {size, std::ptrdiff_t{size.width} * 3, 3});
@@ -300,7 +269,7 @@ std::string complaint_about(const SourceLayout& layout, Size calibrated = {640, 
   return "none";
 }
 
-TEST(RectifyMap, ImpossibleLayoutsAreRefusedInWords) {
+TEST(RectifyMap, ImpossibleLayout_Throws) {
   EXPECT_EQ(complaint_about({{640, 480}, 640, 1}), "none");
   EXPECT_EQ(complaint_about({{1280, 720}, 1280, 1}),
             "the calibration is for 640×480 images, the camera delivers 1280×720");

@@ -1,4 +1,5 @@
-// The rectification table against the two OpenCV functions it replaces.
+// SPDX-License-Identifier: BSD-3-Clause
+// Compares the rectification table with the two OpenCV functions that it replaces.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +34,7 @@ Maps opencv_maps(const CameraCalibration& c, int type) {
   return maps;
 }
 
-// Cameras of every distortion model, each turned at random by up to a few degrees.
+// Returns cameras of every distortion model, each turned at random by up to a few degrees.
 std::vector<CameraCalibration> cameras() {
   std::mt19937 random(20240611);
   const auto within = [&](double reach) {
@@ -73,7 +74,7 @@ std::vector<CameraCalibration> cameras() {
   return result;
 }
 
-TEST(RectifyOpenCv, SourceCoordinatesAreTheSameToAThousandthOfAPixel) {
+TEST(RectifyOpenCv, SourceCoordinates_Equal) {
   for (const CameraCalibration& c : cameras()) {
     const Maps maps = opencv_maps(c, CV_32FC1);
     for (int y = 0; y < c.camera.image.height; ++y) {
@@ -88,14 +89,14 @@ TEST(RectifyOpenCv, SourceCoordinatesAreTheSameToAThousandthOfAPixel) {
   }
 }
 
-// Or so close to one that coordinates in single precision, as cv::remap takes them, may fall on the other
-// side.
+// Returns whether a coordinate is so close to a tie that single precision, which cv::remap uses, may round it
+// to the other side.
 bool close_to_a_tie(float coordinate, float margin = 1e-3F) {
   const float fraction = coordinate - std::floor(coordinate);
   return std::abs(fraction - 0.5F) < margin;
 }
 
-TEST(RectifyOpenCv, GrayAndColorAreTheSamePixelsAsRemapTakes) {
+TEST(RectifyOpenCv, Nearest_EqualsRemap) {
   cv::RNG random(7);
   long compared = 0, outside = 0;
   for (const CameraCalibration& c : cameras()) {
@@ -127,11 +128,11 @@ TEST(RectifyOpenCv, GrayAndColorAreTheSamePixelsAsRemapTakes) {
     }
   }
   EXPECT_GT(compared, 8'000'000);  // ties are rare
-  EXPECT_GT(outside, 100'000);     // and some of the pixels do lie outside the source
+  EXPECT_GT(outside, 100'000);     // some pixels lie outside the source
 }
 
-// Where all four neighbors lie in the image and rounding to 1/32 px is no tie: to the byte.
-TEST(RectifyOpenCv, BilinearIsWhatRemapInterpolates) {
+// Equal to the byte where all four neighbors lie in the image and rounding to 1/32 px is no tie.
+TEST(RectifyOpenCv, Bilinear_EqualsRemap) {
   cv::RNG random(8);
   long compared = 0, inside = 0;
   for (const CameraCalibration& c : cameras()) {
@@ -162,12 +163,12 @@ TEST(RectifyOpenCv, BilinearIsWhatRemapInterpolates) {
   EXPECT_GT(compared, inside * 8 / 10);
 }
 
-TEST(RectifyOpenCv, UndistortIsTheInverseThatOpenCvFinds) {
+TEST(RectifyOpenCv, Undistort_EqualsOpenCv) {
   for (const CameraCalibration& c : cameras()) {
     const CameraModel& m = c.camera;
     const cv::Mat camera = (cv::Mat_<double>(3, 3) << m.fx, 0, m.cx, 0, m.fy, m.cy, 0, 0, 1);
     const cv::Mat lens(distortion_of(m), true);
-    if (m.lens == LensModel::kFisheye) continue;  // OpenCV's answer is not exact enough to compare with
+    if (m.lens == LensModel::kFisheye) continue;  // OpenCV's result is not exact enough
     std::vector<cv::Point2d> pixels, want;
     for (double y = 0; y < m.image.height; y += 20) {
       for (double x = 0; x < m.image.width; x += 20) pixels.emplace_back(x, y);

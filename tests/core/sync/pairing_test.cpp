@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/sync/pairing.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ std::string take(Desk& pair_queue) {
   return pair ? pair->left + "+" + pair->right : "none";
 }
 
-TEST(Pairing, PairsFramesWithinTheTolerance) {
+TEST(Pairing, WithinTolerance_Pairs) {
   Desk pair_queue(16 * kMs);
   pair_queue.add(Side::kLeft, "L0", 100 * kMs);
   EXPECT_FALSE(pair_queue.has_pair());
@@ -29,14 +30,14 @@ TEST(Pairing, PairsFramesWithinTheTolerance) {
   EXPECT_FALSE(pair_queue.has_pair());
 }
 
-TEST(Pairing, SkewIsNegativeWhenTheRightFrameIsEarlier) {
+TEST(Pairing, RightEarlier_SkewIsNegative) {
   Desk pair_queue(16 * kMs);
   pair_queue.add(Side::kRight, "R0", 95 * kMs);
   pair_queue.add(Side::kLeft, "L0", 100 * kMs);
   EXPECT_EQ(pair_queue.take()->skew_ns(), -5 * kMs);
 }
 
-TEST(Pairing, DropsWhatCanNeverGetAPartner) {
+TEST(Pairing, NoPossiblePartner_Drops) {
   Desk pair_queue(10 * kMs);
   pair_queue.add(Side::kLeft, "L0", 0);
   pair_queue.add(Side::kRight, "R0", 11 * kMs);  // too far from L0, and so is every later right frame
@@ -46,7 +47,7 @@ TEST(Pairing, DropsWhatCanNeverGetAPartner) {
   EXPECT_EQ(pair_queue.counts().right_without_partner, 0);
 }
 
-TEST(Pairing, DropsALateFrameThatIsAlreadyTooOld) {
+TEST(Pairing, LateFrameTooOld_Drops) {
   Desk pair_queue(10 * kMs);
   pair_queue.add(Side::kLeft, "L1", 50 * kMs);
   pair_queue.add(Side::kRight, "R0", 20 * kMs);
@@ -55,14 +56,14 @@ TEST(Pairing, DropsALateFrameThatIsAlreadyTooOld) {
   EXPECT_EQ(take(pair_queue), "L1+R1");
 }
 
-TEST(Pairing, OneCameraAloneNeverQueues) {
+TEST(Pairing, OneCamera_NeverQueues) {
   Desk pair_queue(10 * kMs);
   for (int i = 0; i < 10; ++i) pair_queue.add(Side::kLeft, "L" + std::to_string(i), i * 33 * kMs);
   EXPECT_FALSE(pair_queue.has_pair());
   EXPECT_EQ(pair_queue.counts().left_without_partner, 9);
 }
 
-TEST(Pairing, ANewerPairSupersedesOneNotTaken) {
+TEST(Pairing, NewerPair_SupersedesOlder) {
   Desk pair_queue(10 * kMs);
   pair_queue.add(Side::kLeft, "L0", 0);
   pair_queue.add(Side::kRight, "R0", 1 * kMs);
@@ -73,7 +74,7 @@ TEST(Pairing, ANewerPairSupersedesOneNotTaken) {
   EXPECT_EQ(pair_queue.counts().pairs_superseded, 1);
 }
 
-TEST(Pairing, ANearerFrameReplacesThePartnerOfAPairNotTaken) {
+TEST(Pairing, NearerFrame_ReplacesPartner) {
   Desk pair_queue(20 * kMs);
   pair_queue.add(Side::kRight, "R0", 0);
   pair_queue.add(Side::kLeft, "L0", 18 * kMs);
@@ -85,7 +86,7 @@ TEST(Pairing, ANearerFrameReplacesThePartnerOfAPairNotTaken) {
   EXPECT_EQ(pair_queue.counts().pairs, 1);
 }
 
-TEST(Pairing, AFartherFrameDoesNotReplaceThePartner) {
+TEST(Pairing, FartherFrame_KeepsPartner) {
   Desk pair_queue(20 * kMs);
   pair_queue.add(Side::kRight, "R0", 0);
   pair_queue.add(Side::kLeft, "L0", 5 * kMs);
@@ -95,7 +96,7 @@ TEST(Pairing, AFartherFrameDoesNotReplaceThePartner) {
   EXPECT_EQ(take(pair_queue), "L1+R1");
 }
 
-TEST(Pairing, FreeRunningCamerasOfOneRatePairEveryFrameWithItsNearest) {
+TEST(Pairing, SameRate_PairsNearestFrames) {
   constexpr std::int64_t kPeriod = 33 * kMs;
   for (std::int64_t phase = 0; phase < kPeriod; phase += kMs) {
     Desk pair_queue(kPeriod / 2);
@@ -113,7 +114,7 @@ TEST(Pairing, FreeRunningCamerasOfOneRatePairEveryFrameWithItsNearest) {
   }
 }
 
-TEST(Pairing, AClockThatGoesBackwardsStartsAnew) {
+TEST(Pairing, ClockBackwards_StartsOver) {
   Desk pair_queue(10 * kMs);
   pair_queue.add(Side::kLeft, "L0", 1000 * kMs);
   pair_queue.add(Side::kLeft, "L1", 5 * kMs);
@@ -122,7 +123,7 @@ TEST(Pairing, AClockThatGoesBackwardsStartsAnew) {
   EXPECT_EQ(take(pair_queue), "L1+R1");
 }
 
-TEST(Pairing, EveryFrameIsAccountedFor) {
+TEST(Pairing, EveryFrame_IsCounted) {
   Desk pair_queue(7 * kMs);
   std::uint64_t state = 1;
   std::int64_t now = 0;
@@ -146,7 +147,7 @@ TEST(Pairing, EveryFrameIsAccountedFor) {
   EXPECT_GT(taken, 100);
 }
 
-TEST(Pairing, DroppedFramesAreGivenBackAtOnce) {
+TEST(Pairing, DroppedFrame_IsReleasedAtOnce) {
   Pairing<std::shared_ptr<int>> pair_queue(10 * kMs);
   auto first = std::make_shared<int>(0);
   const std::weak_ptr<int> watch = first;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/sync/phase_sync.h"
 
 #include <gtest/gtest.h>
@@ -14,11 +15,11 @@ constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kSecond = 1'000 * kMs;
 constexpr std::int64_t kPeriod = 33'333'333;
 
-/// Two cameras by their time stamps alone.
+/// Two simulated cameras that deliver timestamps only.
 struct StereoSource {
   explicit StereoSource(const PhaseSyncOptions& options) : phase(options) {}
 
-  /// Runs for so long; restarts the cameras that are to be.
+  /// Simulates the given time and restarts cameras on request.
   void run(std::int64_t duration_ns) {
     const std::int64_t end = now + duration_ns;
     while (true) {
@@ -66,7 +67,7 @@ struct StereoSource {
   std::function<std::int64_t(std::int64_t)> first_frame = [](std::int64_t at) { return at + 217 * kMs; };
 };
 
-TEST(PhaseSync, TheStartTimeIsLearntFromOneStartAndUsedForTheNext) {
+TEST(PhaseSync, FixedStartTime_AlignsWithSecondRestart) {
   StereoSource rig({});
   rig.noise_us = 300;
   rig.run(10 * kSecond);
@@ -78,7 +79,7 @@ TEST(PhaseSync, TheStartTimeIsLearntFromOneStartAndUsedForTheNext) {
   EXPECT_EQ(rig.phase.restarts(), 2);
 }
 
-TEST(PhaseSync, EveryStartPhaseIsAligned) {
+TEST(PhaseSync, EveryPhase_Aligns) {
   for (int ms = 0; ms < 33; ++ms) {
     StereoSource rig({});
     rig.right_ns = rig.left_ns + ms * kMs;
@@ -90,7 +91,7 @@ TEST(PhaseSync, EveryStartPhaseIsAligned) {
   }
 }
 
-TEST(PhaseSync, ARandomStartTimeIsThrownAgainUntilItFits) {
+TEST(PhaseSync, RandomStartTime_RetriesUntilAligned) {
   int aligned = 0;
   for (unsigned seed = 1; seed <= 50; ++seed) {
     PhaseSyncOptions options;
@@ -106,12 +107,12 @@ TEST(PhaseSync, ARandomStartTimeIsThrownAgainUntilItFits) {
   EXPECT_GE(aligned, 47) << "each throw hits with 18 %, so 20 of them with 98 %";
 }
 
-TEST(PhaseSync, GivesUpAfterItsTries) {
+TEST(PhaseSync, TriesExhausted_GivesUp) {
   PhaseSyncOptions options;
   options.tries = 4;
   StereoSource rig(options);
   int n = 0;
-  // Never anywhere near: each start lands at another place half a frame away.
+  // Every start lands about half a frame period away.
   rig.first_frame = [&](std::int64_t at) {
     const std::int64_t off = kPeriod / 2 + (n++ % 2 == 0 ? 3 : -3) * kMs;
     const std::int64_t since = (at + 200 * kMs - rig.left_ns) / kPeriod + 1;
@@ -125,7 +126,7 @@ TEST(PhaseSync, GivesUpAfterItsTries) {
   EXPECT_EQ(rig.right_restarts, 4) << "and stays so";
 }
 
-TEST(PhaseSync, GivesUpAtOnceOnACameraThatRestartsDoNotMove) {
+TEST(PhaseSync, RestartWithoutEffect_GivesUpEarly) {
   StereoSource rig({});
   rig.first_frame = [&](std::int64_t at) {
     return rig.right_ns + ((at - rig.right_ns) / kPeriod + 6) * kPeriod;
@@ -135,7 +136,7 @@ TEST(PhaseSync, GivesUpAtOnceOnACameraThatRestartsDoNotMove) {
   EXPECT_EQ(rig.right_restarts, 3);
 }
 
-TEST(PhaseSync, WatchesTheDriftForAnHour) {
+TEST(PhaseSync, DriftForAnHour_IsTracked) {
   for (const bool realign : {false, true}) {
     PhaseSyncOptions options;
     options.realign = realign;
@@ -165,17 +166,17 @@ TEST(PhaseSync, WatchesTheDriftForAnHour) {
   }
 }
 
-TEST(PhaseSync, RealignsNotMoreThanOnceInHalfAMinute) {
+TEST(PhaseSync, FastDrift_RealignsEvery30s) {
   PhaseSyncOptions options;
   options.realign = true;
   StereoSource rig(options);
-  rig.drift_ppb = 2'000'000;  // 2 ms a second: hopeless
+  rig.drift_ppb = 2'000'000;  // 2 ms a second: too fast to align
   rig.run(600 * kSecond);
   EXPECT_LE(rig.right_restarts, 20 * options.tries);
   EXPECT_GT(rig.right_frames, 15'000);
 }
 
-TEST(PhaseSync, TheCameraThatCameBackIsTheOneRestarted) {
+TEST(PhaseSync, CameraReturns_IsTheOneRestarted) {
   StereoSource rig({});
   rig.phase.started(Side::kLeft, rig.now);
   rig.phase.started(Side::kRight, rig.now);
@@ -193,7 +194,7 @@ TEST(PhaseSync, TheCameraThatCameBackIsTheOneRestarted) {
   EXPECT_GE(rig.left_restarts, 1);
 }
 
-TEST(PhaseSync, CamerasOfDifferentRatesAreLeftAlone) {
+TEST(PhaseSync, DifferentRates_NoRestart) {
   PhaseSync phase({});
   for (int i = 0; i < 300; ++i) {
     phase.add(Side::kLeft, i * kPeriod);
@@ -204,7 +205,7 @@ TEST(PhaseSync, CamerasOfDifferentRatesAreLeftAlone) {
   EXPECT_FALSE(phase.skew_ns());
 }
 
-TEST(PhaseSync, ACameraThatChangesItsRateHasNoPhaseAnyMore) {
+TEST(PhaseSync, RateChanges_PhaseIsForgotten) {
   StereoSource rig({});
   rig.run(10 * kSecond);
   ASSERT_EQ(rig.phase.state(), PhaseSyncState::kAligned);
@@ -217,7 +218,7 @@ TEST(PhaseSync, ACameraThatChangesItsRateHasNoPhaseAnyMore) {
   EXPECT_EQ(rig.phase.state(), PhaseSyncState::kAligned);
 }
 
-TEST(PhaseSync, OffOnlyMeasures) {
+TEST(PhaseSync, Off_OnlyMeasures) {
   PhaseSyncOptions options;
   options.enabled = false;
   StereoSource rig(options);
@@ -227,7 +228,7 @@ TEST(PhaseSync, OffOnlyMeasures) {
   EXPECT_EQ(rig.right_restarts, 0);
 }
 
-TEST(PhaseSync, LostFramesDoNotDisturbIt) {
+TEST(PhaseSync, LostFrames_StaysAligned) {
   StereoSource rig({});
   Random random(9);
   for (int i = 0; i < 1000; ++i) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The interface between the simd search and its kernels, one for each instruction set.
 #pragma once
 
@@ -6,64 +7,69 @@
 
 namespace stereod::kernels {
 
-/// Columns searched in one go, so that the sums of all their disparities stay in the first-level cache.
+/// Columns whose sums of all disparities stay in the first-level cache while their winners are found.
 inline constexpr int kBlockColumns = 64;
-/// Elements between two columns of Scratch::block_sums: 32 bytes, so that columns stay aligned.
+/// Unused elements between two columns of Scratch::block_sums: 32 bytes, so that columns stay aligned.
 inline constexpr int kBlockGap = 16;
-/// Disparities whose running sums fit in the registers; more are searched in chunks of at most this many.
+/// Maximum number of disparities whose running sums fit in the registers. More are searched in chunks.
 inline constexpr int kMaxChunk = 64;
 inline constexpr int kMaxChunks = 4;
-/// Bytes of the longest vector of any kernel.
+/// Bytes of the widest vector of any kernel.
 inline constexpr int kMaxVector = 32;
-/// Bytes after a row of image or prepared pixels that a kernel may read.
+/// Bytes past the end of a row of an image or of prepared pixels that a kernel may read.
 inline constexpr int kRowMargin = 64;
 
-/// How the sums are calculated. A group is 8 disparities.
+/// How sums are computed. A group is 8 disparities.
 enum class Arithmetic {
-  kPacked,  ///< |L−R| ≤ 126; 16-bit sums are cost·8 + number of the group in the chunk: the minimum tells
-            ///< both
-  kPackedHalves,  ///< the same with cost·4 + number of the group in its half of the chunk, a minimum for each
-                  ///< half
-  kRaw,   ///< |L−R| ≤ 255; 16-bit sums are costs, the winner is found by comparing with the minimum
-  kWide,  ///< |L−R| ≤ 255; 32-bit sums, for windows whose cost does not fit in 16 bits
+  /// |L−R| ≤ 126. 16-bit sums are cost·8 + number of the group in its chunk: the minimum tells both.
+  kPacked,
+  /// |L−R| ≤ 126. 16-bit sums are cost·4 + number of the group in its half of the chunk; one minimum a half.
+  kPackedHalves,
+  /// |L−R| ≤ 255. 16-bit sums are costs; the winner is found by comparing with the minimum.
+  kRaw,
+  /// |L−R| ≤ 255. 32-bit sums, for windows whose cost exceeds 16 bits.
+  kWide,
 };
 
-/// What is fixed for a band. Column c of a row is image column min_disparity + c; in it the disparities
-/// k < min(disparities, c − window + 2) can be searched for the window whose last column is c.
-struct Shape {
+/// What stays the same for all rows. Column c of a row is image column min_disparity + c. For the window
+/// whose last column is c, the disparities k < min(disparities, c − window + 2) can be searched.
+struct SearchParams {
   Arithmetic arithmetic;
-  int width;  ///< of the image, px
+  int width;  ///< [px] of the image
   int min_disparity;
   int disparities;
   int window;
-  int chunk;  ///< disparities in a chunk: what Kernel::chunk_for says
-  int chunks;
-  bool recompute;        ///< differences that leave the window are calculated again, not kept
+  int chunk;             ///< disparities in a chunk, a result of Kernel::chunk_for
+  int chunks;            ///< 1…kMaxChunks
+  bool recompute;        ///< differences that leave the window are computed again instead of stored
   bool neighbors;        ///< Winners::before and after are wanted
-  int uniqueness_ratio;  ///< %; 0: Winners::ambiguous is not wanted
+  int uniqueness_ratio;  ///< [%] 0: Winners::ambiguous is not wanted
+
   int columns() const { return width - min_disparity; }
   int padded_disparities() const { return chunk * chunks; }
-  /// From a column of Scratch::block_sums to the next. What lies between two is written over at will.
+  /// Returns the elements from one column of Scratch::block_sums to the next. Those between may be
+  /// overwritten.
   int block_step() const { return padded_disparities() + kBlockGap; }
-  /// The first disparity of a chunk. The last of several ends with the last disparity, and so has some in
-  /// common with the one before it. A single one may be wider than the search; where its disparities lie then
-  /// is said in column_sums.h.
-  int first_of(int of_chunk) const {
-    return of_chunk + 1 < chunks || chunks == 1 ? of_chunk * chunk : disparities - chunk;
+  /// Returns the first disparity of chunk @p index. The last of several chunks ends with the last disparity,
+  /// so that it overlaps the one before. A single chunk may have more lanes than disparities: see
+  /// column_sums.h.
+  int first_of(int index) const {
+    return index + 1 < chunks || chunks == 1 ? index * chunk : disparities - chunk;
   }
-  /// Bytes of a right row as Kernel::prepare_right_row writes it.
+  /// Returns the bytes of a right row as Kernel::prepare_right_row writes it.
   int right_row_bytes() const { return 2 * (width + padded_disparities()) + kRowMargin; }
 };
 
-/// The columns [first, end) of a row that are done in one go, with column sums of their own: a whole row, or
-/// a strip whose column sums stay in the first-level cache from row to row. Its windows lie within it.
-struct Strip {
+/// The columns [first, end) of a row that are searched together, with column sums of their own: the whole
+/// row, or so few that the column sums stay in the first-level cache from row to row. Windows lie within a
+/// tile.
+struct ColumnTile {
   int first, end;
   int columns() const { return end - first; }
 };
 
-/// Where a search leaves its results; element 0 is the first column with an answer. After the
-/// strip's last one fewer than kBlockColumns elements are written over, so strips go from left to right.
+/// Receives the result of a search; element 0 is the first column that can have a disparity. Up to
+/// kBlockColumns − 1 elements past the last one of the tile are overwritten, so tiles go from left to right.
 struct Winners {
   std::uint16_t* index;
   std::uint32_t* cost;
@@ -72,54 +78,57 @@ struct Winners {
   std::uint8_t* ambiguous;
 };
 
-/// A row of both images as the kernels take it.
+/// A row of both images.
 struct InputRow {
-  const std::uint8_t* left;   ///< begins at image column min_disparity
-  const std::uint8_t* right;  ///< as Kernel::prepare_right_row wrote it
+  const std::uint8_t* left;   ///< from image column min_disparity on
+  const std::uint8_t* right;  ///< as Kernel::prepare_right_row writes it
 };
 
-/// The row that comes into the window, and the one that leaves it.
+/// The row that enters the window and the one that leaves it.
 struct RowChange {
   InputRow added;
-  InputRow removed;  ///< only with Shape::recompute: the row that leaves, zeros while the window fills
-  /// Only without: where |L−R| of the row added goes, and those of the row that leaves, zeros while the
-  /// window fills. 64-byte aligned, [chunk][column of the strip][k].
+  /// Only with SearchParams::recompute: the row that leaves; zeros while the window fills.
+  InputRow removed;
+  /// Only without: receives |L−R| of the row added, 64-byte aligned, [chunk][column of the tile][k].
   std::uint8_t* differences;
+  /// Only without: |L−R| of the row that leaves, in the same order; zeros while the window fills.
   const std::uint8_t* removed_differences;
 };
 
-/// Memory of one strip. 64-byte aligned.
+/// The memory of one tile, 64-byte aligned.
 struct Scratch {
-  std::uint16_t* column_sums;  ///< [chunk][window + column of the strip][k]; the first `window` stay zero
-  /// [kBlockColumns][block_step], by k, with 64 elements before and after. Beyond the last disparity
-  /// they hold, from the beginning, what is larger than any sum: Kernel::no_sum.
+  std::uint16_t*
+      column_sums;  ///< [chunk][window + column of the tile][k]; the first `window` columns stay zero
+  /// [kBlockColumns][block_step], by k, with 64 elements before and after. Elements without a sum hold
+  /// Kernel::no_sum, which exceeds any sum.
   std::uint16_t* block_sums;
 };
 
-/// One instruction set's kernel. None of the functions needs alignment of image rows.
+/// The functions of one instruction set. Image rows may have any alignment.
 struct Kernel {
-  /// How many disparities a chunk has that holds at least `disparities` ≤ kMaxChunk of them.
+  /// Returns the size of a chunk that holds at least @p disparities [1…kMaxChunk] disparities.
   int (*chunk_for)(int disparities);
 
   /// xsobel_row() of core/match/block/prefilter.h.
   void (*xsobel_row)(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width,
                      int cap, std::uint8_t* out);
 
-  /// Writes a right row backwards, so that growing disparity means growing address, in the order in which
-  /// the kernel's widening of bytes to 16 bits leaves disparities in order.
-  void (*prepare_right_row)(const Shape&, const std::uint8_t* right, std::uint8_t* out);
+  /// Writes a right row in reverse order, so that growing disparity means growing address, with its bytes
+  /// interleaved as the kernel's widening from 8 to 16 bits requires.
+  void (*prepare_right_row)(const SearchParams&, const std::uint8_t* right, std::uint8_t* out);
 
-  /// What stands in Scratch::block_sums where there is no sum.
+  /// The value of Scratch::block_sums where there is no sum.
   std::uint16_t no_sum;
 
-  /// Adds a row to the column sums of a strip and subtracts the one that leaves.
-  void (*add_row)(const Shape&, const Strip&, const RowChange&, const Scratch&);
+  /// Adds a row to the column sums of a tile and subtracts the one that leaves.
+  void (*add_row)(const SearchParams&, const ColumnTile&, const RowChange&, const Scratch&);
 
-  /// The same, and finds the winner of every column that has an answer.
-  void (*search_row)(const Shape&, const Strip&, const RowChange&, const Scratch&, const Winners&);
+  /// Does the same as add_row and finds the winner of each column.
+  void (*search_row)(const SearchParams&, const ColumnTile&, const RowChange&, const Scratch&,
+                     const Winners&);
 
-  /// interpolate<float>() of core/match/block/interpolation.h; sums of absolute differences are small enough for
-  /// it.
+  /// interpolate<float>() of core/match/block/interpolation.h, which is exact for sums of absolute
+  /// differences.
   void (*interpolate)(const std::uint16_t* index, const std::uint32_t* cost, const std::uint32_t* before,
                       const std::uint32_t* after, int count, int min_disparity, int disparities,
                       std::int16_t* out);

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/match/block/kernels/kernel-inl.h"
-#include "core/match/block/kernels/vector_avx2.h"
+#include "core/match/vector/vector_avx2.h"
 
 namespace stereod::kernels {
 

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Empty where the compiler was not told of NEON.
 #if defined(__aarch64__) || defined(__ARM_NEON)
 #include "core/match/block/kernels/kernel-inl.h"
-#include "core/match/block/kernels/vector_neon.h"
+#include "core/match/vector/vector_neon.h"
 
 namespace stereod::kernels {
 

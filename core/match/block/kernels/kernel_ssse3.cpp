@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/match/block/kernels/kernel-inl.h"
-#include "core/match/block/kernels/vector_sse.h"
+#include "core/match/vector/vector_sse.h"
 
 namespace stereod::kernels {
 

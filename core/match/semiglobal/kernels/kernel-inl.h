@@ -1,66 +1,68 @@
-// The one source of the semi-global kernels. Each kernel_<isa>.cpp compiles it for its instruction set, with
-// a vector layer V: core/match/block/kernels/vector_scalar.h says what its operations do.
+// SPDX-License-Identifier: BSD-3-Clause
+// Source of all semi-global kernels. Each kernel_<isa>.cpp compiles it for its instruction set, with a vector
+// layer V, whose operations core/match/vector/vector_scalar.h defines.
 //
-// As with core/match/block/kernels/kernel-inl.h, nothing here may come from a header whose inline functions
-// other files use too: no std:: functions, and every function is a template of V.
+// As in core/match/block/kernels/kernel-inl.h, nothing here may come from a header whose inline functions are
+// also used in files compiled for the baseline CPU: no std:: functions, and every function is a template of
+// V.
 #pragma once
 
-#include "core/match/block/kernels/row_preparation.h"
-#include "core/match/semiglobal/grid_rows.h"
-#include "core/match/semiglobal/kernels/cost_row.h"
+#include "core/match/semiglobal/kernels/cost_rows.h"
+#include "core/match/semiglobal/kernels/disparity_rows.h"
 #include "core/match/semiglobal/kernels/kernel.h"
 #include "core/match/semiglobal/kernels/paths.h"
+#include "core/match/vector/xsobel-inl.h"
 
 namespace stereod::semiglobal {
 
-/// From the run-time number of vectors to the functions compiled for it; 0 stands for any number.
+/// Calls the function compiled for the number of vectors; 0 stands for any number.
 template <typename V>
 class Dispatch {
  public:
-  static void paths_from_right(const Shape& shape, const PathRows& rows) {
-    switch (shape.vectors) {
+  static void paths_from_right(const SearchParams& params, const PathRows& rows) {
+    switch (params.vectors) {
       case 1:
-        return Paths<V, 1>::from_right(shape, rows);
+        return Paths<V, 1>::from_right(params, rows);
       case 2:
-        return Paths<V, 2>::from_right(shape, rows);
+        return Paths<V, 2>::from_right(params, rows);
       case 3:
-        return Paths<V, 3>::from_right(shape, rows);
+        return Paths<V, 3>::from_right(params, rows);
       case 4:
-        return Paths<V, 4>::from_right(shape, rows);
+        return Paths<V, 4>::from_right(params, rows);
       default:
-        return Paths<V, 0>::from_right(shape, rows);
+        return Paths<V, 0>::from_right(params, rows);
     }
   }
 
-  static void paths_from_left(const Shape& shape, const PathRows& rows) {
-    switch (shape.vectors) {
+  static void paths_from_left(const SearchParams& params, const PathRows& rows) {
+    switch (params.vectors) {
       case 1:
-        return Paths<V, 1>::from_left(shape, rows);
+        return Paths<V, 1>::from_left(params, rows);
       case 2:
-        return Paths<V, 2>::from_left(shape, rows);
+        return Paths<V, 2>::from_left(params, rows);
       case 3:
-        return Paths<V, 3>::from_left(shape, rows);
+        return Paths<V, 3>::from_left(params, rows);
       case 4:
-        return Paths<V, 4>::from_left(shape, rows);
+        return Paths<V, 4>::from_left(params, rows);
       default:
-        return Paths<V, 0>::from_left(shape, rows);
+        return Paths<V, 0>::from_left(params, rows);
     }
   }
 
-  static void count_at_most(const Shape& shape, const std::uint8_t* sums, const std::uint8_t* limits,
-                            std::int16_t* counts) {
-    switch (shape.vectors) {
+  static void count_less_equal(const SearchParams& params, const std::uint8_t* sums,
+                               const std::uint8_t* limits, std::int16_t* counts) {
+    switch (params.vectors) {
       case 2:
-        return semiglobal::count_at_most<V, 2>(shape, sums, limits, counts);
+        return semiglobal::count_less_equal<V, 2>(params, sums, limits, counts);
       case 4:
-        return semiglobal::count_at_most<V, 4>(shape, sums, limits, counts);
+        return semiglobal::count_less_equal<V, 4>(params, sums, limits, counts);
       default:
-        return semiglobal::count_at_most<V, 0>(shape, sums, limits, counts);
+        return semiglobal::count_less_equal<V, 0>(params, sums, limits, counts);
     }
   }
 };
 
-/// The table entry of an instruction set.
+/// Returns the kernel of an instruction set.
 template <typename V>
 constexpr Kernel make_kernel() {
   return {V::kBytes,
@@ -70,14 +72,14 @@ constexpr Kernel make_kernel() {
           CostRows<V>::row,
           Dispatch<V>::paths_from_right,
           Dispatch<V>::paths_from_left,
-          Dispatch<V>::count_at_most,
-          GridRows<V>::interpolate,
-          GridRows<V>::median,
-          GridRows<V>::likeness,
-          GridRows<V>::widen,
-          GridRows<V>::between,
-          GridRows<V>::disparities,
-          GridRows<V>::step_limits};
+          Dispatch<V>::count_less_equal,
+          DisparityRows<V>::refine,
+          DisparityRows<V>::median,
+          DisparityRows<V>::guide,
+          DisparityRows<V>::upsample_columns,
+          DisparityRows<V>::interpolate_rows,
+          DisparityRows<V>::write_disparities,
+          DisparityRows<V>::adapt_p2};
 }
 
 }  // namespace stereod::semiglobal

@@ -1,143 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The interface between the semi-global matcher and its kernels, one for each instruction set.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/cpu.h"
 #include "core/match/disparity.h"
-#include "core/match/options.h"
 #include "core/match/semiglobal/subsampled_disparity.h"
 
 namespace stereod::semiglobal {
 
-/// A pixel is compared by two nibbles of comparisons with its neighbors and by its gradient.
+/// Planes that describe a row of pixels: the lower and the upper half (nibble) of the census, the gradient.
 inline constexpr int kPlanes = 3;
-/// Columns that are smoothed beyond the last one.
-inline constexpr int kBeyond = 3;
-/// Vectors that the disparities of a point are spread over at most.
+/// Columns beyond the last one that smoothing along the row reads.
+inline constexpr int kColumnPadding = 3;
+/// Maximum number of vectors that hold the disparities of one sample.
 inline constexpr int kMaxVectors = 16;
-/// Pixels that the census looks at to the left and to the right, and rows up and down.
+/// Pixels that the census reads to each side, and rows up and down.
 inline constexpr int kCensusReach = 2;
-/// Rows of the grid that are smoothed into one, less the middle one, by two.
+/// Grid rows above and below a grid row that its costs are smoothed with.
 inline constexpr int kSmoothReach = 2;
 
-/// What is fixed for a matcher. The disparities of a point lie striped: number k stands in vector k % vectors
-/// at lane k / vectors, so that a neighboring disparity is mostly in a neighboring vector, at the same
-/// lane. Those there only to fill up the vectors are the last ones of the last lanes.
-struct Shape {
-  int width;  ///< of the image, px
+/// What stays the same during the life of a matcher. The disparities of a sample are striped: number k lies
+/// in vector k % vectors at lane k / vectors, so that a neighboring disparity is mostly in a neighboring
+/// vector at the same lane. The numbers from `disparities` on are padding, at the ends of the vectors.
+struct SearchParams {
+  int width;  ///< [px] of the image
   int min_disparity;
   int disparities;
   int vectors;       ///< 1…kMaxVectors
   int lanes;         ///< bytes in a vector
-  int decimation_x;  ///< 2 on the coarse grid, 1 on the fine one
+  int decimation_x;  ///< image columns a sample: 2 on the coarse grid, 1 on the fine one
   int gradient_limit;
   int p1;
+
   int grid_width() const { return (width + decimation_x - 1) / decimation_x; }
-  /// Bytes of the costs of a point.
-  int point_bytes() const { return vectors * lanes; }
-  /// Bytes of a plane of a row of pixels, at least kBeyond more than there are, and of one that runs
-  /// backwards in stripes. The stripes begin with the last of row_bytes() pixels; after the first one come
-  /// marks for what lies outside.
-  int row_bytes() const { return (width + kBeyond + 63) / 64 * 64; }
+  /// Returns the bytes of the costs of one sample.
+  int sample_bytes() const { return vectors * lanes; }
+  /// Returns the bytes of one plane of a row of pixels: at least kColumnPadding more than the image is wide.
+  int row_bytes() const { return (width + kColumnPadding + 63) / 64 * 64; }
+  /// Returns the bytes of one of the `vectors` stripes of a plane, see Kernel::stripe_row.
   int stripe_bytes() const { return (row_bytes() + vectors) / vectors + lanes + 16; }
-  int place(int disparity) const { return disparity % vectors * lanes + disparity / vectors; }
+  /// Returns where the byte of disparity number @p k lies among the costs of a sample.
+  int lane_offset(int k) const { return k % vectors * lanes + k / vectors; }
 };
 
-/// Costs of a row of the grid smoothed along it, from its first point on; a point's worth of memory before
-/// and after it may be written.
+/// Input and output of Kernel::cost_row. `tables` and `costs` are aligned to whole vectors.
 struct CostRow {
-  const std::uint8_t*
-      left;  ///< [plane][row_bytes()], nibbles times 16; the last pixel is repeated kBeyond times
-  const std::uint8_t* right;    ///< [plane][vectors][stripe_bytes()]
-  const std::uint8_t* tables;   ///< [16 left nibbles][16 right nibbles]: costs; 64-byte aligned
-  const std::int32_t* offsets;  ///< [width + kBeyond][vectors]: where in the stripes matches begin
+  /// [kPlanes][row_bytes()] of the left row, census nibbles times 16; the last pixel is repeated
+  /// kColumnPadding times.
+  const std::uint8_t* left;
+  const std::uint8_t* right;  ///< [kPlanes][vectors][stripe_bytes()] of the right row, see Kernel::stripe_row
+  const std::uint8_t* tables;   ///< [16 left nibbles][16 right nibbles] costs
+  const std::int32_t* offsets;  ///< [width + kColumnPadding][vectors] where in the stripes the matches begin
+  /// [grid_width()][sample_bytes()]; the memory of one sample before and after it may be overwritten.
   std::uint8_t* costs;
 };
 
-/// Two rows of the grid, which the kernel works on by turns to hide latencies.
+/// Input and output of the path functions: two grid rows, computed by turns to hide latencies.
 struct PathRows {
-  const std::uint8_t* costs[2 * kSmoothReach + 2];  ///< of the rows from two before the first on
-  const std::uint8_t* padding;  ///< [point_bytes()]: 255 for disparities that only fill up, else 0
-  const std::uint8_t* p2[2];    ///< for the step from the point to the left; element 0 is not looked at
-  std::uint8_t* smoothed[2];    ///< costs smoothed over rows
-  std::uint8_t* sums[2];        ///< of the paths
-  std::uint16_t* winners[2];    ///< least sum · 256 + the first lane that has it in some vector
+  const std::uint8_t*
+      costs[2 * kSmoothReach + 2];  ///< of the grid rows from kSmoothReach before the first on
+  const std::uint8_t* padding;      ///< [sample_bytes()] 255 for the padding, 0 for disparities
+  const std::uint8_t* p2[2];  ///< of the step between each sample and its left neighbor; element 0 is unused
+  std::uint8_t* smoothed[2];  ///< costs smoothed over rows
+  std::uint8_t* sums[2];      ///< of the paths
+  std::uint16_t* winners[2];  ///< minimum sum · 256 + the first lane that has it in some vector
 };
 
-/// What is known of the winners of a row of points; a vector's worth more can be read.
+/// The winners of a grid row; one vector more than its samples can be read.
 struct WinnerRow {
   const std::uint16_t* winners;                        ///< as in PathRows
-  const std::uint8_t *index, *sum_before, *sum_after;  ///< the winning disparity, the sums beside it
+  const std::uint8_t *index, *sum_before, *sum_after;  ///< the winner's k, the sums of k − 1 and k + 1
 };
 
-/// One instruction set's kernel. The functions take rows of any alignment; costs, sums and padding are
-/// 64-byte aligned.
+/// The functions of one instruction set. Rows may have any alignment; costs, sums and padding are aligned to
+/// whole vectors. docs/matcher.md, part 2, defines what each function computes.
 struct Kernel {
   int lanes;
 
-  /// The census of a row of pixels, in two planes of `row_bytes` bytes, each nibble shifted left by `shift`
-  /// (0 or 4). `rows` are five, two above it to two below; of each, kCensusReach pixels to the left and to
-  /// the right of `row_bytes` can be read.
+  /// Writes the census (section 2.1) of a row of pixels: two planes of @p row_bytes bytes, each nibble
+  /// shifted left by @p shift [0 or 4]. @p rows are the five rows from two above to two below; kCensusReach
+  /// pixels to the left and to the right of each can be read.
   void (*census_row)(const std::uint8_t* const* rows, int row_bytes, int shift, std::uint8_t* out);
 
   /// xsobel_row() of core/match/block/prefilter.h.
   void (*xsobel_row)(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int width,
                      int cap, std::uint8_t* out);
 
-  /// A plane of a row backwards and in stripes. `scratch` has two times row_bytes().
-  void (*stripe_row)(const Shape&, const std::uint8_t* plane, std::uint8_t* scratch, std::uint8_t* out);
+  /// Writes a plane of row_bytes() pixels in reverse order, so that growing disparity means growing address,
+  /// and cut into `vectors` stripes: pixel i of the reversed row goes to stripe i % vectors. The bytes after
+  /// the pixels stay: they mark what lies outside the image. @p scratch has 2·row_bytes() bytes.
+  void (*stripe_row)(const SearchParams&, const std::uint8_t* plane, std::uint8_t* scratch,
+                     std::uint8_t* out);
 
-  void (*cost_row)(const Shape&, const CostRow&);
+  /// Writes the costs of a grid row, smoothed along it (section 2.1).
+  void (*cost_row)(const SearchParams&, const CostRow&);
 
-  /// Smooths costs over rows and sums up the paths from the right.
-  void (*paths_from_right)(const Shape&, const PathRows&);
+  /// Smooths costs over rows and writes the sums of the paths from the right (section 2.2).
+  void (*paths_from_right)(const SearchParams&, const PathRows&);
 
-  /// Adds the paths from the left and finds the winners.
-  void (*paths_from_left)(const Shape&, const PathRows&);
+  /// Adds the sums of the paths from the left and writes the winners (section 2.2).
+  void (*paths_from_left)(const SearchParams&, const PathRows&);
 
-  /// How many of the sums of each point of a row are at most its limit.
-  void (*count_at_most)(const Shape&, const std::uint8_t* sums, const std::uint8_t* limits,
-                        std::int16_t* counts);
+  /// Counts for each sample the sums that are ≤ its limit.
+  void (*count_less_equal)(const SearchParams&, const std::uint8_t* sums, const std::uint8_t* limits,
+                           std::int16_t* counts);
 
-  /// The winners as values, to 1/16 px by a parabola-like fit (section 2.3 of docs/matcher.md); none for
-  /// those outside the right image. Rows of values, here and below, have kValueMargin.
-  void (*interpolate_row)(const Shape&, const WinnerRow&, GridValue* out);
+  /// Writes the winners as disparities in 1/16 px (section 2.3), kNoDisparity for those outside the right
+  /// image. Rows of disparities have kDisparityMargin, here and below.
+  void (*refine_winners)(const SearchParams&, const WinnerRow&, SubsampledDisparity* out);
 
-  /// Median of the 3×3 values around each, or of the three of its column where that one is more than 1.5 px
-  /// nearer and less than 0.5 px from another of the three: what is thin and upright has no majority of nine.
-  /// The outermost columns stay. Where there is none a value stands for less than any, so most decide. Points
-  /// without a value get one only if `fill`, marked as filled.
-  void (*median_row)(const GridValue* above, const GridValue* row, const GridValue* below, int width,
-                     bool fill, GridValue* out);
+  /// Writes the 3×3 median of a grid row with the exception for thin upright things (section 2.5). The first
+  /// and the last column are copied. Samples without a disparity get one only if @p fill, marked as filled.
+  void (*median_row)(const SubsampledDisparity* above, const SubsampledDisparity* row,
+                     const SubsampledDisparity* below, int width, bool fill, SubsampledDisparity* out);
 
-  /// For the pixels of a row of the left image and of the `next` one, which of two neighbors they look
-  /// like: those of `row` the ones at their left and right, those of `next` the ones in `row` and in `after`.
-  /// As widen_row() and between_rows() understand it. Reads up to 32 pixels beside the rows, and writes up to
-  /// 32 bytes beyond.
-  void (*likeness_row)(const std::uint8_t* row, const std::uint8_t* next, const std::uint8_t* after,
-                       int width, std::uint8_t* out);
+  /// Writes the guide of an image row of the left image, one byte a pixel, for upsample_columns() and
+  /// interpolate_rows(): which of its left and right neighbors a pixel of @p row resembles more in gray
+  /// value, and which of its upper (@p row) and lower (@p after) neighbors a pixel of @p next. Reads up to 32
+  /// pixels on both sides of the rows and writes up to 32 bytes past the end.
+  void (*guide_row)(const std::uint8_t* row, const std::uint8_t* next, const std::uint8_t* after, int width,
+                    std::uint8_t* out);
 
-  /// From the coarse grid's points to every column of the image: between two of them stands what
-  /// between_rows() says. Writes one element after the row.
-  void (*widen_row)(GridValue* row, int image_width, const std::uint8_t* likeness, GridValue* out);
+  /// Writes a disparity for every image column from the samples of a coarse grid row: between two samples as
+  /// interpolate_rows() does. Overwrites the element after @p row.
+  void (*upsample_columns)(SubsampledDisparity* row, int image_width, const std::uint8_t* guide,
+                           SubsampledDisparity* out);
 
-  /// What stands between two values, column by column: their average if they are less than 1.5 px apart, else
-  /// the one whose pixel looks more like the one between, the lower one if both do alike; the other one if
-  /// one is not there. `likeness` is of the row of `a`.
-  void (*between_rows)(const GridValue* a, const GridValue* b, int width, const std::uint8_t* likeness,
-                       GridValue* out);
+  /// Writes the row between two rows of disparities, column by column (section 2.5): the mean if the two
+  /// differ by less than 1.5 px, else the one whose pixel resembles the pixel between them more, the lower
+  /// one if both do alike; the known one if only one is known. @p guide is that of the row of @p a.
+  void (*interpolate_rows)(const SubsampledDisparity* a, const SubsampledDisparity* b, int width,
+                           const std::uint8_t* guide, SubsampledDisparity* out);
 
-  /// From a row of values to disparities of the image, as match() writes them.
-  void (*disparities_of_row)(const GridValue* row, int width, const Disparities&, std::int16_t* out);
+  /// Writes disparities as BandMatcher gives them (core/match/disparity.h).
+  void (*write_disparities)(const SubsampledDisparity* row, int width, const OutputParams&,
+                            std::int16_t* out);
 
-  /// What a larger step of the disparity costs from each point to the one at its left: p2 less the step in
-  /// gray levels, at least 0. `step` columns of the image to a point, 1 or 2. Reads the image, and
-  /// writes, up to 32 elements beyond the last point; the first one means nothing.
-  void (*step_limits)(const std::uint8_t* gray, int width, int step, int p2, std::uint8_t* limits);
+  /// Writes, for each sample, P2 of the step from its left neighbor: max(0, p2 − |gray step|). @p step [1 or
+  /// 2] image columns a sample. Reads and writes up to 32 elements past the last sample; element 0 is
+  /// undefined.
+  void (*adapt_p2)(const std::uint8_t* gray, int width, int step, int p2, std::uint8_t* out);
 };
 
-/// The kernel of an instruction set that resolve_isa() has found.
+/// Returns the kernel of @p isa, a result of resolve_isa().
 const Kernel& kernel_for(Isa isa);
 
 extern const Kernel kScalarKernel;

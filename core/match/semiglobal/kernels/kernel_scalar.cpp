@@ -1,5 +1,6 @@
-#include "core/match/block/kernels/vector_scalar.h"
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/match/semiglobal/kernels/kernel-inl.h"
+#include "core/match/vector/vector_scalar.h"
 
 namespace stereod::semiglobal {
 

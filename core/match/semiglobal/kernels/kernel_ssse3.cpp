@@ -1,5 +1,6 @@
-#include "core/match/block/kernels/vector_sse.h"
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/match/semiglobal/kernels/kernel-inl.h"
+#include "core/match/vector/vector_sse.h"
 
 namespace stereod::semiglobal {
 

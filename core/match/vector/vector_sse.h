@@ -1,15 +1,16 @@
-// The vector layer for SSSE3 and SSE4.1. What each operation means stands in vector_scalar.h.
+// SPDX-License-Identifier: BSD-3-Clause
+// The vector layer for SSSE3 and SSE4.1. vector_scalar.h defines the operations.
 #pragma once
 
 #include <immintrin.h>
 
 #include <cstdint>
 
-#include "core/match/block/kernels/bytes_x86.h"
+#include "core/match/vector/bytes_x86.h"
 
 namespace stereod::kernels {
 
-/// kSse41: pminuw and phminposuw are there; else sums are biased for pminsw.
+/// kSse41: with pminuw and phminposuw; else sums are biased for pminsw.
 template <bool kSse41>
 struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
   static constexpr int kBytes = 16;
@@ -25,11 +26,11 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
   static void pin(Reg& a) { asm("" : "+x"(a)); }
 
   static Reg abs_diff_u8(Reg a, Reg b) { return _mm_or_si128(_mm_subs_epu8(a, b), _mm_subs_epu8(b, a)); }
-  // b is what was loaded: its register may be overwritten.
+  // b was just loaded, so its register may be overwritten.
   static Reg abs_diff_small(Reg a, Reg b) { return _mm_abs_epi8(_mm_sub_epi8(b, a)); }
 
-  // pmaddubsw with one of its two factors zero widens and scales in one instruction; with factors of 1 and −1
-  // it subtracts unsigned bytes that stand side by side.
+  // pmaddubsw with one of two factors zero widens and scales in one instruction; with factors 1 and −1 it
+  // subtracts neighboring unsigned bytes.
   template <int kShift>
   static void change_small(Reg added, Reg removed, Reg& first, Reg& second) {
     const Reg change = _mm_sub_epi8(added, removed);
@@ -63,7 +64,7 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
     return _mm_castps_si128(_mm_min_ps(_mm_castsi128_ps(a), _mm_castsi128_ps(b)));
   }
   static Reg greater32(Reg a, Reg b) { return _mm_cmpgt_epi32(a, b); }
-  static std::uint32_t least32(Reg a) {
+  static std::uint32_t horizontal_min32(Reg a) {
     a = min32(a, _mm_unpackhi_epi64(a, a));
     a = min32(a, _mm_shuffle_epi32(a, _MM_SHUFFLE(3, 3, 1, 1)));
     return static_cast<std::uint32_t>(_mm_cvtsi128_si32(a));
@@ -81,20 +82,20 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
     second = load(p + 8);
   }
 
-  static std::uint16_t least16(Reg a) {
+  static std::uint16_t horizontal_min16(Reg a) {
 #if defined(__SSE4_1__)
-    if constexpr (kSse41) return static_cast<std::uint16_t>(least_lane(a));
+    if constexpr (kSse41) return static_cast<std::uint16_t>(horizontal_argmin16(a));
 #endif
     return static_cast<std::uint16_t>(_mm_cvtsi128_si32(fold(a)) ^ kBias);
   }
-  static std::uint32_t least_lane(Reg a) {
+  static std::uint32_t horizontal_argmin16(Reg a) {
 #if defined(__SSE4_1__)
     if constexpr (kSse41) return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(a)));
 #endif
-    const Reg least = fold(a);
-    const Reg everywhere = _mm_shuffle_epi32(_mm_shufflelo_epi16(least, 0), 0);
+    const Reg minimum = fold(a);
+    const Reg everywhere = _mm_shuffle_epi32(_mm_shufflelo_epi16(minimum, 0), 0);
     const auto equal = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi16(a, everywhere)));
-    return ((static_cast<std::uint32_t>(_mm_cvtsi128_si32(least)) ^ kBias) & 0xFFFF) |
+    return ((static_cast<std::uint32_t>(_mm_cvtsi128_si32(minimum)) ^ kBias) & 0xFFFF) |
            static_cast<std::uint32_t>(__builtin_ctz(equal) / 2) << 16;
   }
 
@@ -111,7 +112,7 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
   }
 
-  // above + 2·row by one pmaddubsw, and below, of the pixels to the right less those to the left.
+  // Computes above + 2·row with one pmaddubsw, then adds below; pixels to the right minus pixels to the left.
   static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,
                      std::uint8_t* out) {
     const Reg above_right = load(above + 1), row_right = load(row + 1), below_right = load(below + 1);
@@ -122,8 +123,8 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
     const Reg upper =
         gradient(_mm_unpackhi_epi8(above_right, row_right), _mm_unpackhi_epi8(above_left, row_left),
                  _mm_unpackhi_epi8(below_right, below_left), cap);
-    const Reg most = broadcast8(static_cast<std::uint8_t>(2 * cap));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_min_epu8(_mm_packus_epi16(lower, upper), most));
+    const Reg maximum = broadcast8(static_cast<std::uint8_t>(2 * cap));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_min_epu8(_mm_packus_epi16(lower, upper), maximum));
   }
 
   static void store(void* p, Reg a) { _mm_storeu_si128(static_cast<__m128i*>(p), a); }
@@ -133,19 +134,19 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
   static Reg sub8(Reg a, Reg b) { return _mm_sub_epi8(a, b); }
   static Reg add8_saturated(Reg a, Reg b) { return _mm_adds_epu8(a, b); }
   static Reg average8(Reg a, Reg b) { return _mm_avg_epu8(a, b); }
-  static Reg at_most8(Reg a, Reg b) { return _mm_cmpeq_epi8(_mm_min_epu8(a, b), a); }
+  static Reg less_equal8(Reg a, Reg b) { return _mm_cmpeq_epi8(_mm_min_epu8(a, b), a); }
   static Reg load_table(const std::uint8_t* p) { return load_aligned(p); }
-  static Reg look_up(Reg table, Reg indices) { return _mm_shuffle_epi8(table, indices); }
-  static Reg raise_lanes(Reg a) { return _mm_alignr_epi8(a, _mm_set1_epi8(-1), 15); }
-  static Reg lower_lanes(Reg a) { return _mm_alignr_epi8(_mm_set1_epi8(-1), a, 1); }
+  static Reg table_lookup(Reg table, Reg indices) { return _mm_shuffle_epi8(table, indices); }
+  static Reg shift_lanes_up(Reg a) { return _mm_alignr_epi8(a, _mm_set1_epi8(-1), 15); }
+  static Reg shift_lanes_down(Reg a) { return _mm_alignr_epi8(_mm_set1_epi8(-1), a, 1); }
 
-  static void least8(Reg a, Reg b, Reg& least_a, Reg& least_b) {
+  static void horizontal_min8(Reg a, Reg b, Reg& minimum_a, Reg& minimum_b) {
 #if defined(__SSE4_1__)
-    if constexpr (kSse41) {  // the lesser of two bytes as 16 bits
+    if constexpr (kSse41) {  // minimum of byte pairs, as 16 bits
       const Reg pairs_a = _mm_minpos_epu16(_mm_min_epu8(a, _mm_srli_epi16(a, 8)));
       const Reg pairs_b = _mm_minpos_epu16(_mm_min_epu8(b, _mm_srli_epi16(b, 8)));
-      least_a = _mm_shuffle_epi8(pairs_a, _mm_setzero_si128());
-      least_b = _mm_shuffle_epi8(pairs_b, _mm_setzero_si128());
+      minimum_a = _mm_shuffle_epi8(pairs_a, _mm_setzero_si128());
+      minimum_b = _mm_shuffle_epi8(pairs_b, _mm_setzero_si128());
       return;
     }
 #endif
@@ -153,11 +154,11 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
     both = _mm_min_epu8(both, _mm_srli_epi64(both, 32));
     both = _mm_min_epu8(both, _mm_srli_epi64(both, 16));
     both = _mm_min_epu8(both, _mm_srli_epi64(both, 8));
-    least_a = _mm_shuffle_epi8(both, _mm_setzero_si128());
-    least_b = _mm_shuffle_epi8(both, _mm_set1_epi8(8));
+    minimum_a = _mm_shuffle_epi8(both, _mm_setzero_si128());
+    minimum_b = _mm_shuffle_epi8(both, _mm_set1_epi8(8));
   }
 
-  static std::uint32_t winner8(Reg a) {
+  static std::uint32_t horizontal_argmin8(Reg a) {
 #if defined(__SSE4_1__)
     if constexpr (kSse41) {
       const Reg places = _mm_setr_epi8(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
@@ -165,27 +166,27 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
       return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(pairs))) & 0xFFFF;
     }
 #endif
-    Reg least, unused;
-    least8(a, a, least, unused);
-    const auto equal = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(a, least)));
-    return (static_cast<std::uint32_t>(_mm_cvtsi128_si32(least)) & 0xFF) << 8 |
+    Reg minimum, unused;
+    horizontal_min8(a, a, minimum, unused);
+    const auto equal = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(a, minimum)));
+    return (static_cast<std::uint32_t>(_mm_cvtsi128_si32(minimum)) & 0xFF) << 8 |
            static_cast<std::uint32_t>(__builtin_ctz(equal));
   }
 
-  static int sum8(Reg a) {
+  static int horizontal_sum8(Reg a) {
     const Reg sums = _mm_sad_epu8(a, _mm_setzero_si128());
     return _mm_cvtsi128_si32(_mm_add_epi32(sums, _mm_unpackhi_epi64(sums, sums)));
   }
 
  private:
-  // The least lane in the low two lanes.
+  // Returns the minimum lane in the two lowest lanes.
   static Reg fold(Reg a) {
-    Reg least = min16(a, _mm_shuffle_epi32(a, _MM_SHUFFLE(1, 0, 3, 2)));
-    least = min16(least, _mm_shuffle_epi32(least, _MM_SHUFFLE(2, 3, 0, 1)));
-    return min16(least, _mm_shufflelo_epi16(least, _MM_SHUFFLE(2, 3, 0, 1)));
+    Reg minimum = min16(a, _mm_shuffle_epi32(a, _MM_SHUFFLE(1, 0, 3, 2)));
+    minimum = min16(minimum, _mm_shuffle_epi32(minimum, _MM_SHUFFLE(2, 3, 0, 1)));
+    return min16(minimum, _mm_shufflelo_epi16(minimum, _MM_SHUFFLE(2, 3, 0, 1)));
   }
 
-  // From pairs of bytes, raised by the cap; packing will clip what is below 0.
+  // Returns the gradient + cap from pairs of bytes; packing clips values below 0.
   static Reg gradient(Reg right, Reg left, Reg below, int cap) {
     const Reg one_two = _mm_set1_epi16(0x0201);
     const Reg one_less_one = _mm_set1_epi16(static_cast<short>(0xFF01));
@@ -194,7 +195,7 @@ struct VectorSse : BytesX86<kSse41 ? 41 : 3> {
                          broadcast16(static_cast<std::uint16_t>(cap)));
   }
 
-  // Which register holds the `position`-th group of 8 disparities of the chunk.
+  // Returns the number of the register that holds the `position`-th group of 8 disparities of the chunk.
   template <int kVectors, bool kEvenOddOrder>
   static constexpr int register_of(int position) {
     if (!kEvenOddOrder) return position;

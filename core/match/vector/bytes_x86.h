@@ -1,4 +1,5 @@
-// What both x86 vector layers do with 16 bytes (SSSE3). What each operation means stands in vector_scalar.h.
+// SPDX-License-Identifier: BSD-3-Clause
+// Operations on 16 bytes that both x86 vector layers share (SSSE3). vector_scalar.h defines them.
 #pragma once
 
 #include <immintrin.h>
@@ -7,7 +8,7 @@
 
 namespace stereod::kernels {
 
-/// kIsa only makes the functions of each kernel its own: they are compiled with different instructions.
+/// kIsa gives each kernel functions of its own, because each is compiled with different instructions.
 template <int kIsa>
 struct BytesX86 {
   static void reverse16(const std::uint8_t* in, std::uint8_t* out) {

@@ -1,5 +1,6 @@
-// The vector layer in plain C++ (with the compiler's own vector types, which it maps to whatever the CPU's
-// baseline has): what every operation means. The others do the same with instructions of their own.
+// SPDX-License-Identifier: BSD-3-Clause
+// The vector layer in plain C++, with the compiler's own vector types. Defines what every operation means;
+// the other layers do the same with instructions of their CPU.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +11,12 @@ namespace stereod::kernels {
 
 struct VectorScalar {
   static constexpr int kBytes = 16;
-  static constexpr bool kOneSize = true;  // of chunks
-  /// Added to every 16-bit sum, modulo 65536, so that min16() may compare signed numbers.
+  static constexpr bool kOneSize = true;  // one size of chunks, to keep the program small
+  /// Offset of every 16-bit sum, modulo 65536, so that min16() may compare signed numbers.
   static constexpr std::uint16_t kBias = 0;
-  /// In which order the two halves that widening signed bytes leaves hold them: the even and the odd bytes,
-  /// or (false) the lower and the upper eight. Unsigned bytes always widen to lower and upper, except that
-  /// vectors of 32 bytes do that in each half for itself.
+  /// What the two results of widening signed bytes hold: the even and the odd bytes (true), or the lower and
+  /// the upper eight (false). Unsigned bytes always widen to lower and upper; vectors of 32 bytes do so
+  /// within each half.
   static constexpr bool kEvenOdd = false;
   using Reg [[gnu::vector_size(16)]] = std::uint16_t;
   using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
@@ -33,17 +34,17 @@ struct VectorScalar {
   static Reg broadcast8(std::uint8_t value) { return reinterpret_cast<Reg>(Bytes{} + value); }
   static Reg broadcast16(std::uint16_t value) { return Reg{} + value; }
 
-  /// Keeps a value in its register: compilers like to load again what an instruction can take from memory,
-  /// and to move what they could leave in place.
+  /// Forces a value to stay in its register: compilers reload operands that an instruction can take from
+  /// memory, and move values that could stay.
   static void pin(Reg&) {}
 
-  /// 16 bytes in reverse order. Here and below the 16 or 32 bytes read may overlap those written.
+  /// Reverses 16 bytes. Here and below the 16 or 32 bytes read may overlap those written.
   static void reverse16(const std::uint8_t* in, std::uint8_t* out) {
     std::uint8_t bytes[16];
     for (int i = 0; i < 16; ++i) bytes[i] = in[15 - i];
     std::memcpy(out, bytes, sizeof(bytes));
   }
-  /// 16 bytes of a and of b by turns.
+  /// Interleaves 16 bytes of a and of b.
   static void interleave16(const std::uint8_t* a, const std::uint8_t* b, std::uint8_t* out) {
     std::uint8_t bytes[32];
     for (int i = 0; i < 16; ++i) {
@@ -53,7 +54,7 @@ struct VectorScalar {
     std::memcpy(out, bytes, sizeof(bytes));
   }
 
-  /// |a − b| of unsigned bytes; small: that differ by at most 127.
+  /// Returns |a − b| of unsigned bytes; _small: of bytes that differ by at most 127.
   static Reg abs_diff_u8(Reg a, Reg b) {
     const auto x = reinterpret_cast<Bytes>(a);
     const auto y = reinterpret_cast<Bytes>(b);
@@ -61,8 +62,8 @@ struct VectorScalar {
   }
   static Reg abs_diff_small(Reg a, Reg b) { return abs_diff_u8(a, b); }
 
-  /// Adds the bytes added − removed to 16-bit lanes: differences that fit in a signed byte, times 2^kShift,
-  /// or any.
+  /// Adds the bytes `added` − `removed` to 16-bit lanes; _small: differences that fit in a signed byte, times
+  /// 2^kShift.
   template <int kShift>
   static void change_small(Reg added, Reg removed, Reg& first, Reg& second) {
     const auto change =
@@ -77,14 +78,14 @@ struct VectorScalar {
     second += widened<Reg>(in, 8) - widened<Reg>(out, 8);
   }
 
-  /// 16-bit lanes, modulo 65536; min16 of biased numbers.
+  /// 16-bit lanes, modulo 65536; min16 compares biased numbers.
   static Reg bit_and(Reg a, Reg b) { return a & b; }
   static Reg add16(Reg a, Reg b) { return a + b; }
   static Reg sub16(Reg a, Reg b) { return a - b; }
   static Reg min16(Reg a, Reg b) { return a < b ? a : b; }
-  /// 32-bit lanes: the even or the odd ones of signed 16-bit lanes, times 256; greater32 has all bits or
-  /// none; least32 is the least lane of all. Of numbers to compare, the bits are those of finite
-  /// floating-point numbers ≥ 2^−126, so that these may be compared instead.
+  /// 32-bit lanes. even_256, odd_256: the even or odd signed 16-bit lanes, times 256. greater32: all bits or
+  /// none of each lane. horizontal_min32: the minimum of all lanes. The bits of numbers to compare are those
+  /// of finite floating-point numbers ≥ 2^−126, so that a layer may compare floating-point numbers instead.
   static Reg even_256(Reg a) { return reinterpret_cast<Reg>(reinterpret_cast<Signed32>(a) << 16 >> 8); }
   static Reg odd_256(Reg a) { return reinterpret_cast<Reg>(reinterpret_cast<Signed32>(a) >> 16 << 8); }
   static Reg add32(Reg a, Reg b) {
@@ -98,17 +99,17 @@ struct VectorScalar {
   static Reg greater32(Reg a, Reg b) {
     return reinterpret_cast<Reg>(reinterpret_cast<Signed32>(a) > reinterpret_cast<Signed32>(b));
   }
-  static std::uint32_t least32(Reg a) {
+  static std::uint32_t horizontal_min32(Reg a) {
     const auto lanes = reinterpret_cast<Signed32>(a);
-    std::int32_t least = lanes[0];
-    for (int i = 1; i < 4; ++i) least = lanes[i] < least ? lanes[i] : least;
-    return static_cast<std::uint32_t>(least);
+    std::int32_t minimum = lanes[0];
+    for (int i = 1; i < 4; ++i) minimum = lanes[i] < minimum ? lanes[i] : minimum;
+    return static_cast<std::uint32_t>(minimum);
   }
-  /// The biased number where the mask is 0 plus bias, the largest one where it is 0xFFFF plus bias.
+  /// Returns the biased number where the mask is 0 + bias, the maximum where it is 0xFFFF + bias.
   static Reg masked(Reg a, Reg mask) { return a | mask; }
 
-  /// The two halves of a vector of unsigned bytes that was widened, from and to 2·kBytes of memory in order;
-  /// kAligned: memory that is aligned as for store_aligned.
+  /// Store and load the two results of widening unsigned bytes, as 2·kBytes of memory in order. kAligned: the
+  /// memory is aligned as for store_aligned.
   template <bool kAligned>
   static void store_in_order(std::uint16_t* p, Reg first, Reg second) {
     store(p, first);
@@ -119,52 +120,52 @@ struct VectorScalar {
     second = load(p + 8);
   }
 
-  /// The least lane, less the bias.
-  static std::uint16_t least16(Reg a) {
-    std::uint16_t least = a[0];
-    for (int k = 1; k < kBytes / 2; ++k) least = a[k] < least ? a[k] : least;
-    return least;
+  /// Returns the minimum lane without bias.
+  static std::uint16_t horizontal_min16(Reg a) {
+    std::uint16_t minimum = a[0];
+    for (int k = 1; k < kBytes / 2; ++k) minimum = a[k] < minimum ? a[k] : minimum;
+    return minimum;
   }
 
-  /// The least lane less the bias in the low half, in the high half the first place it has among groups of 8
-  /// lanes laid over each other (wider vectors fold onto 8 lanes).
-  static std::uint32_t least_lane(Reg a) {
-    std::uint32_t least = static_cast<std::uint32_t>(a[0]) << 3;  // value and place in one number to compare
+  /// Returns the minimum lane without bias in the low half, and in the high half the first of 8 lanes that
+  /// has it (wider vectors are folded onto 8 lanes).
+  static std::uint32_t horizontal_argmin16(Reg a) {
+    std::uint32_t minimum = static_cast<std::uint32_t>(a[0]) << 3;  // value and lane in one number to compare
     for (std::uint32_t i = 1; i < 8; ++i) {
       const std::uint32_t candidate = static_cast<std::uint32_t>(a[i]) << 3 | i;
-      least = candidate < least ? candidate : least;
+      minimum = candidate < minimum ? candidate : minimum;
     }
-    return least >> 3 | (least & 7) << 16;
+    return minimum >> 3 | (minimum & 7) << 16;
   }
 
-  /// `sums` are 2·kVectors registers, the halves of each vector of bytes after each other; kEvenOddOrder: the
-  /// first ones hold the lower disparities of the chunk, the second ones the upper, else every vector holds
-  /// a run of disparities. The first place in the chunk whose sum equals `wanted`; there is one.
+  /// Returns the first disparity of the chunk whose sum equals @p wanted; there must be one. @p sums are
+  /// 2·kVectors registers, the two halves of each vector of bytes side by side. kEvenOddOrder: the first
+  /// halves hold the lower disparities of the chunk, the second ones the upper; else each vector holds a run.
   template <int kVectors, bool kEvenOddOrder>
   static std::uint32_t first_equal(const Reg* sums, Reg wanted) {
     static_assert(!kEvenOddOrder);
     constexpr int kLast = 2 * kVectors - 1;
-    Reg places = Reg{0, 1, 2, 3, 4, 5, 6, 7} + static_cast<std::uint16_t>(8 * kLast);
+    Reg disparities = Reg{0, 1, 2, 3, 4, 5, 6, 7} + static_cast<std::uint16_t>(8 * kLast);
     Reg first = broadcast16(0xFFFF);
-    for (int i = kLast; i >= 0; --i, places -= 8) first = sums[i] == wanted ? places : first;
-    return least_lane(first) & 0xFFFF;
+    for (int i = kLast; i >= 0; --i, disparities -= 8) first = sums[i] == wanted ? disparities : first;
+    return horizontal_argmin16(first) & 0xFFFF;
   }
 
-  /// xsobel_row() of kBytes pixels; the rows have a pixel more on either side.
+  /// xsobel_row() of kBytes pixels; one more pixel can be read on both sides of each row.
   static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,
                      std::uint8_t* out) {
     const auto limit = static_cast<std::int16_t>(cap);
-    const auto most = static_cast<std::int16_t>(2 * cap);
+    const auto maximum = static_cast<std::int16_t>(2 * cap);
     for (int x = 0; x < kBytes; ++x) {
       const auto raised =
           static_cast<std::int16_t>((above[x + 1] - above[x - 1]) + 2 * (row[x + 1] - row[x - 1]) +
                                     (below[x + 1] - below[x - 1]) + limit);
       const std::int16_t positive = raised > 0 ? raised : std::int16_t{0};
-      out[x] = static_cast<std::uint8_t>(positive < most ? positive : most);
+      out[x] = static_cast<std::uint8_t>(positive < maximum ? positive : maximum);
     }
   }
 
-  // --- lanes of bytes, for the semi-global kernel
+  // --- 8-bit lanes, for the semi-global kernel
 
   static void store(void* p, Reg a) { std::memcpy(p, &a, sizeof(a)); }
   static Reg bit_or(Reg a, Reg b) { return a | b; }
@@ -173,75 +174,74 @@ struct VectorScalar {
     const auto y = reinterpret_cast<Bytes>(b);
     return reinterpret_cast<Reg>(x < y ? x : y);
   }
-  /// Modulo 256; the second never has a borrow here.
+  /// Modulo 256; callers of sub8 never cause a borrow.
   static Reg add8(Reg a, Reg b) {
     return reinterpret_cast<Reg>(reinterpret_cast<Bytes>(a) + reinterpret_cast<Bytes>(b));
   }
   static Reg sub8(Reg a, Reg b) {
     return reinterpret_cast<Reg>(reinterpret_cast<Bytes>(a) - reinterpret_cast<Bytes>(b));
   }
-  /// The sum, at most 255.
+  /// Returns min(a + b, 255).
   static Reg add8_saturated(Reg a, Reg b) {
     const auto x = reinterpret_cast<Bytes>(a);
     const Bytes sum = x + reinterpret_cast<Bytes>(b);
     return reinterpret_cast<Reg>(sum < x ? Bytes{} + std::uint8_t{255} : sum);
   }
-  /// (a + b + 1) / 2.
+  /// Returns (a + b + 1) / 2.
   static Reg average8(Reg a, Reg b) {
     const auto x = reinterpret_cast<Bytes>(a);
     const auto y = reinterpret_cast<Bytes>(b);
     return reinterpret_cast<Reg>((x | y) - ((x ^ y) >> 1));
   }
-  /// All bits where a ≤ b.
-  static Reg at_most8(Reg a, Reg b) {
+  /// Returns all bits set where a ≤ b.
+  static Reg less_equal8(Reg a, Reg b) {
     return reinterpret_cast<Reg>(reinterpret_cast<Bytes>(a) <= reinterpret_cast<Bytes>(b));
   }
-  /// A table of 16 bytes, and its entries at the places that the indices say; 0 for indices from 128 on.
-  /// Indices are below 16, or 128.
+  /// Loads a table of 16 bytes, and returns its entries at @p indices [0…15, or 128 for the result 0].
   static Reg load_table(const std::uint8_t* p) { return load(p); }
-  static Reg look_up(Reg table, Reg indices) {
+  static Reg table_lookup(Reg table, Reg indices) {
     const auto entries = reinterpret_cast<Bytes>(table);
-    const auto places = reinterpret_cast<Bytes>(indices);
-    Bytes found{};
-    for (int i = 0; i < 16; ++i) found[i] = places[i] < 16 ? entries[places[i]] : std::uint8_t{0};
-    return reinterpret_cast<Reg>(found);
+    const auto lanes = reinterpret_cast<Bytes>(indices);
+    Bytes result{};
+    for (int i = 0; i < 16; ++i) result[i] = lanes[i] < 16 ? entries[lanes[i]] : std::uint8_t{0};
+    return reinterpret_cast<Reg>(result);
   }
-  /// Lane i becomes lane i − 1 or i + 1; what comes in at the end is 255.
-  static Reg raise_lanes(Reg a) {
+  /// Return in lane i the lane i − 1 (up) or i + 1 (down), and 255 at the free end.
+  static Reg shift_lanes_up(Reg a) {
     std::uint8_t bytes[17];
     bytes[0] = 255;
     std::memcpy(bytes + 1, &a, sizeof(a));
     return load(bytes);
   }
-  static Reg lower_lanes(Reg a) {
+  static Reg shift_lanes_down(Reg a) {
     std::uint8_t bytes[17];
     std::memcpy(bytes, &a, sizeof(a));
     bytes[16] = 255;
     return load(bytes + 1);
   }
-  /// In all lanes the least one of each.
-  static void least8(Reg a, Reg b, Reg& least_a, Reg& least_b) {
-    least_a = broadcast8(static_cast<std::uint8_t>(winner8(a) >> 8));
-    least_b = broadcast8(static_cast<std::uint8_t>(winner8(b) >> 8));
+  /// Broadcasts the minimum lane of each of two vectors.
+  static void horizontal_min8(Reg a, Reg b, Reg& minimum_a, Reg& minimum_b) {
+    minimum_a = broadcast8(static_cast<std::uint8_t>(horizontal_argmin8(a) >> 8));
+    minimum_b = broadcast8(static_cast<std::uint8_t>(horizontal_argmin8(b) >> 8));
   }
-  /// 256 times the least lane, plus the first place it has.
-  static std::uint32_t winner8(Reg a) {
+  /// Returns 256 · the minimum lane + the first lane that has it.
+  static std::uint32_t horizontal_argmin8(Reg a) {
     const auto bytes = reinterpret_cast<Bytes>(a);
-    std::uint32_t least = 0xFFFF;
+    std::uint32_t minimum = 0xFFFF;
     for (std::uint32_t i = 0; i < 16; ++i) {
       const std::uint32_t candidate = static_cast<std::uint32_t>(bytes[i]) << 8 | i;
-      least = candidate < least ? candidate : least;
+      minimum = candidate < minimum ? candidate : minimum;
     }
-    return least;
+    return minimum;
   }
-  /// The sum of all lanes.
-  static int sum8(Reg a) {
+  /// Returns the sum of all lanes.
+  static int horizontal_sum8(Reg a) {
     const auto bytes = reinterpret_cast<Bytes>(a);
     int sum = 0;
     for (int i = 0; i < 16; ++i) sum += bytes[i];
     return sum;
   }
-  /// 32 bytes, the even and the odd ones.
+  /// Splits 32 bytes into the even and the odd ones.
   static void split32(const std::uint8_t* in, std::uint8_t* even, std::uint8_t* odd) {
     for (int i = 0; i < 16; ++i) {
       even[i] = in[2 * i];
@@ -250,7 +250,7 @@ struct VectorScalar {
   }
 
  private:
-  // Eight bytes of a vector, from byte `from` on, as 16 bits with the sign their type has.
+  // Widens eight bytes of a vector, from byte `from` on, to 16 bits, with the sign of their type.
   template <typename Wide, typename Narrow>
   static Wide widened(Narrow a, int from) {
     using Half [[gnu::vector_size(8)]] = std::remove_reference_t<decltype(a[0])>;

@@ -1,4 +1,5 @@
-// The vector layer for NEON, of 64-bit and 32-bit ARM. What each operation means stands in vector_scalar.h.
+// SPDX-License-Identifier: BSD-3-Clause
+// The vector layer for NEON, of 64-bit and 32-bit ARM. vector_scalar.h defines the operations.
 #pragma once
 
 #include <arm_neon.h>
@@ -34,7 +35,7 @@ struct VectorNeon {
   static Reg abs_diff_u8(Reg a, Reg b) { return vreinterpretq_u16_u8(vabdq_u8(bytes(a), bytes(b))); }
   static Reg abs_diff_small(Reg a, Reg b) { return abs_diff_u8(a, b); }
 
-  // A multiplication that widens and accumulates does scaling and adding at once.
+  // One widening multiply-accumulate scales and adds.
   template <int kShift>
   static void change_small(Reg added, Reg removed, Reg& first, Reg& second) {
     const int8x16_t change = vreinterpretq_s8_u8(vsubq_u8(bytes(added), bytes(removed)));
@@ -72,7 +73,7 @@ struct VectorNeon {
   static Reg greater32(Reg a, Reg b) {
     return vreinterpretq_u16_u32(vcgtq_u32(vreinterpretq_u32_u16(a), vreinterpretq_u32_u16(b)));
   }
-  static std::uint32_t least32(Reg a) {
+  static std::uint32_t horizontal_min32(Reg a) {
     const uint32x4_t lanes = vreinterpretq_u32_u16(a);
     const uint32x2_t pairs = vpmin_u32(vget_low_u32(lanes), vget_high_u32(lanes));
     return vget_lane_u32(vpmin_u32(pairs, pairs), 0);
@@ -90,21 +91,21 @@ struct VectorNeon {
     second = vld1q_u16(p + 8);
   }
 
-  static std::uint16_t least16(Reg a) {
+  static std::uint16_t horizontal_min16(Reg a) {
 #if defined(__aarch64__)
     return vminvq_u16(a);
 #else
-    uint16x4_t least = vmin_u16(vget_low_u16(a), vget_high_u16(a));
-    least = vpmin_u16(least, least);
-    least = vpmin_u16(least, least);
-    return vget_lane_u16(least, 0);
+    uint16x4_t minimum = vmin_u16(vget_low_u16(a), vget_high_u16(a));
+    minimum = vpmin_u16(minimum, minimum);
+    minimum = vpmin_u16(minimum, minimum);
+    return vget_lane_u16(minimum, 0);
 #endif
   }
-  static std::uint32_t least_lane(Reg a) {
-    const std::uint16_t least = least16(a);
-    const uint8x8_t equal = vmovn_u16(vceqq_u16(a, vdupq_n_u16(least)));
+  static std::uint32_t horizontal_argmin16(Reg a) {
+    const std::uint16_t minimum = horizontal_min16(a);
+    const uint8x8_t equal = vmovn_u16(vceqq_u16(a, vdupq_n_u16(minimum)));
     const std::uint64_t mask = vget_lane_u64(vreinterpret_u64_u8(equal), 0);
-    return least | static_cast<std::uint32_t>(__builtin_ctzll(mask) / 8) << 16;
+    return minimum | static_cast<std::uint32_t>(__builtin_ctzll(mask) / 8) << 16;
   }
 
   template <int kVectors, bool kEvenOddOrder>
@@ -112,13 +113,13 @@ struct VectorNeon {
     static_assert(!kEvenOddOrder);
     static constexpr std::uint16_t kLaneNumbers[8] = {0, 1, 2, 3, 4, 5, 6, 7};
     Reg number = vld1q_u16(kLaneNumbers);
-    Reg found = vdupq_n_u16(0xFFFF);  // in each lane the lowest disparity that equals
+    Reg first = vdupq_n_u16(0xFFFF);  // in each lane the lowest disparity whose sum equals `wanted`
 #pragma GCC unroll 8
     for (int i = 0; i < 2 * kVectors; ++i) {
-      found = vminq_u16(found, vornq_u16(number, vceqq_u16(sums[i], wanted)));
+      first = vminq_u16(first, vornq_u16(number, vceqq_u16(sums[i], wanted)));
       number = vaddq_u16(number, vdupq_n_u16(8));
     }
-    return least16(found);
+    return horizontal_min16(first);
   }
 
   static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,
@@ -136,9 +137,9 @@ struct VectorNeon {
   static Reg sub8(Reg a, Reg b) { return of(vsubq_u8(bytes(a), bytes(b))); }
   static Reg add8_saturated(Reg a, Reg b) { return of(vqaddq_u8(bytes(a), bytes(b))); }
   static Reg average8(Reg a, Reg b) { return of(vrhaddq_u8(bytes(a), bytes(b))); }
-  static Reg at_most8(Reg a, Reg b) { return of(vcleq_u8(bytes(a), bytes(b))); }
+  static Reg less_equal8(Reg a, Reg b) { return of(vcleq_u8(bytes(a), bytes(b))); }
   static Reg load_table(const std::uint8_t* p) { return load(p); }
-  static Reg look_up(Reg table, Reg indices) {
+  static Reg table_lookup(Reg table, Reg indices) {
 #if defined(__aarch64__)
     return of(vqtbl1q_u8(bytes(table), bytes(indices)));
 #else
@@ -147,22 +148,22 @@ struct VectorNeon {
                           vtbl2_u8(halves, vget_high_u8(bytes(indices)))));
 #endif
   }
-  static Reg raise_lanes(Reg a) { return of(vextq_u8(vdupq_n_u8(255), bytes(a), 15)); }
-  static Reg lower_lanes(Reg a) { return of(vextq_u8(bytes(a), vdupq_n_u8(255), 1)); }
+  static Reg shift_lanes_up(Reg a) { return of(vextq_u8(vdupq_n_u8(255), bytes(a), 15)); }
+  static Reg shift_lanes_down(Reg a) { return of(vextq_u8(bytes(a), vdupq_n_u8(255), 1)); }
 
-  static void least8(Reg a, Reg b, Reg& least_a, Reg& least_b) {
-    least_a = of(vdupq_n_u8(min_byte(bytes(a))));
-    least_b = of(vdupq_n_u8(min_byte(bytes(b))));
+  static void horizontal_min8(Reg a, Reg b, Reg& minimum_a, Reg& minimum_b) {
+    minimum_a = of(vdupq_n_u8(min_byte(bytes(a))));
+    minimum_b = of(vdupq_n_u8(min_byte(bytes(b))));
   }
-  static std::uint32_t winner8(Reg a) {
-    const std::uint8_t least = min_byte(bytes(a));
-    const uint8x16_t equal = vceqq_u8(bytes(a), vdupq_n_u8(least));
-    // Four bits for each lane.
+  static std::uint32_t horizontal_argmin8(Reg a) {
+    const std::uint8_t minimum = min_byte(bytes(a));
+    const uint8x16_t equal = vceqq_u8(bytes(a), vdupq_n_u8(minimum));
+    // Four bits a lane.
     const uint8x8_t packed = vshrn_n_u16(vreinterpretq_u16_u8(equal), 4);
     const std::uint64_t mask = vget_lane_u64(vreinterpret_u64_u8(packed), 0);
-    return static_cast<std::uint32_t>(least) << 8 | static_cast<std::uint32_t>(__builtin_ctzll(mask) / 4);
+    return static_cast<std::uint32_t>(minimum) << 8 | static_cast<std::uint32_t>(__builtin_ctzll(mask) / 4);
   }
-  static int sum8(Reg a) {
+  static int horizontal_sum8(Reg a) {
     const uint64x2_t sums = vpaddlq_u32(vpaddlq_u16(vpaddlq_u8(bytes(a))));
     return static_cast<int>(vgetq_lane_u64(sums, 0) + vgetq_lane_u64(sums, 1));
   }
@@ -179,15 +180,15 @@ struct VectorNeon {
 #if defined(__aarch64__)
     return vminvq_u8(a);
 #else
-    uint8x8_t least = vpmin_u8(vget_low_u8(a), vget_high_u8(a));
-    least = vpmin_u8(least, least);
-    least = vpmin_u8(least, least);
-    least = vpmin_u8(least, least);
-    return vget_lane_u8(least, 0);
+    uint8x8_t minimum = vpmin_u8(vget_low_u8(a), vget_high_u8(a));
+    minimum = vpmin_u8(minimum, minimum);
+    minimum = vpmin_u8(minimum, minimum);
+    minimum = vpmin_u8(minimum, minimum);
+    return vget_lane_u8(minimum, 0);
 #endif
   }
 
-  // Of eight pixels, raised by the cap.
+  // Returns the gradient + cap of eight pixels.
   static int16x8_t gradient(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below,
                             int cap) {
     const auto difference = [](const std::uint8_t* p) {

@@ -1,11 +1,12 @@
-// The vector layer for AVX2. What each operation means stands in vector_scalar.h.
+// SPDX-License-Identifier: BSD-3-Clause
+// The vector layer for AVX2. vector_scalar.h defines the operations.
 #pragma once
 
 #include <immintrin.h>
 
 #include <cstdint>
 
-#include "core/match/block/kernels/bytes_x86.h"
+#include "core/match/vector/bytes_x86.h"
 
 namespace stereod::kernels {
 
@@ -50,16 +51,16 @@ struct VectorAvx2 : BytesX86<2> {
   static Reg add32(Reg a, Reg b) { return _mm256_add_epi32(a, b); }
   static Reg min32(Reg a, Reg b) { return _mm256_min_epi32(a, b); }
   static Reg greater32(Reg a, Reg b) { return _mm256_cmpgt_epi32(a, b); }
-  static std::uint32_t least32(Reg a) {
-    __m128i least = _mm_min_epi32(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
-    least = _mm_min_epi32(least, _mm_unpackhi_epi64(least, least));
-    least = _mm_min_epi32(least, _mm_srli_epi64(least, 32));
-    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(least));
+  static std::uint32_t horizontal_min32(Reg a) {
+    __m128i minimum = _mm_min_epi32(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
+    minimum = _mm_min_epi32(minimum, _mm_unpackhi_epi64(minimum, minimum));
+    minimum = _mm_min_epi32(minimum, _mm_srli_epi64(minimum, 32));
+    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(minimum));
   }
 
   static Reg masked(Reg a, Reg mask) { return _mm256_or_si256(a, mask); }
 
-  // Unpacking left the lower and the upper eight bytes of each half of the vector.
+  // Unpacking works within each half of the vector, so the halves must be exchanged.
   template <bool kAligned>
   static void store_in_order(std::uint16_t* p, Reg first, Reg second) {
     store(p, _mm256_permute2x128_si256(first, second, 0x20));
@@ -72,8 +73,8 @@ struct VectorAvx2 : BytesX86<2> {
     second = _mm256_permute2x128_si256(lower, upper, 0x31);
   }
 
-  static std::uint16_t least16(Reg a) { return static_cast<std::uint16_t>(least_lane(a)); }
-  static std::uint32_t least_lane(Reg a) {
+  static std::uint16_t horizontal_min16(Reg a) { return static_cast<std::uint16_t>(horizontal_argmin16(a)); }
+  static std::uint32_t horizontal_argmin16(Reg a) {
     const __m128i folded = _mm_min_epu16(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
     return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(folded)));
   }
@@ -86,14 +87,14 @@ struct VectorAvx2 : BytesX86<2> {
       const Reg first = sums[register_of<kVectors, kEvenOddOrder>(2 * pair)];
       const Reg second = sums[register_of<kVectors, kEvenOddOrder>(2 * pair + 1)];
       Reg bytes = _mm256_packs_epi16(_mm256_cmpeq_epi16(first, wanted), _mm256_cmpeq_epi16(second, wanted));
-      // packs works in halves, as unpack does.
+      // packs works within each half, as unpack does.
       if constexpr (kEvenOddOrder) bytes = _mm256_permute4x64_epi64(bytes, _MM_SHUFFLE(3, 1, 2, 0));
       equal |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_epi8(bytes))) << (32 * pair);
     }
     return static_cast<std::uint32_t>(__builtin_ctzll(equal));
   }
 
-  // above + 2·row by one pmaddubsw, and below, of the pixels to the right less those to the left.
+  // Computes above + 2·row with one pmaddubsw, then adds below; pixels to the right minus pixels to the left.
   static void xsobel(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below, int cap,
                      std::uint8_t* out) {
     const Reg above_right = load(above + 1), row_right = load(row + 1), below_right = load(below + 1);
@@ -104,9 +105,9 @@ struct VectorAvx2 : BytesX86<2> {
     const Reg upper =
         gradient(_mm256_unpackhi_epi8(above_right, row_right), _mm256_unpackhi_epi8(above_left, row_left),
                  _mm256_unpackhi_epi8(below_right, below_left), cap);
-    const Reg most = broadcast8(static_cast<std::uint8_t>(2 * cap));
+    const Reg maximum = broadcast8(static_cast<std::uint8_t>(2 * cap));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
-                        _mm256_min_epu8(_mm256_packus_epi16(lower, upper), most));
+                        _mm256_min_epu8(_mm256_packus_epi16(lower, upper), maximum));
   }
 
   static void store(void* p, Reg a) { _mm256_storeu_si256(static_cast<__m256i*>(p), a); }
@@ -116,43 +117,44 @@ struct VectorAvx2 : BytesX86<2> {
   static Reg sub8(Reg a, Reg b) { return _mm256_sub_epi8(a, b); }
   static Reg add8_saturated(Reg a, Reg b) { return _mm256_adds_epu8(a, b); }
   static Reg average8(Reg a, Reg b) { return _mm256_avg_epu8(a, b); }
-  static Reg at_most8(Reg a, Reg b) { return _mm256_cmpeq_epi8(_mm256_min_epu8(a, b), a); }
+  static Reg less_equal8(Reg a, Reg b) { return _mm256_cmpeq_epi8(_mm256_min_epu8(a, b), a); }
   static Reg load_table(const std::uint8_t* p) {
     return _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(p)));
   }
-  static Reg look_up(Reg table, Reg indices) { return _mm256_shuffle_epi8(table, indices); }
-  static Reg raise_lanes(Reg a) {
+  static Reg table_lookup(Reg table, Reg indices) { return _mm256_shuffle_epi8(table, indices); }
+  static Reg shift_lanes_up(Reg a) {
     return _mm256_alignr_epi8(a, _mm256_permute2x128_si256(a, _mm256_set1_epi8(-1), 0x02), 15);
   }
-  static Reg lower_lanes(Reg a) {
+  static Reg shift_lanes_down(Reg a) {
     return _mm256_alignr_epi8(_mm256_permute2x128_si256(a, _mm256_set1_epi8(-1), 0x21), a, 1);
   }
 
-  // The lesser of two bytes as 16 bits.
-  static Reg least8(Reg a) {
+  // Takes the minimum of byte pairs as 16 bits, then of all lanes.
+  static Reg horizontal_min8(Reg a) {
     const __m128i bytes = _mm_min_epu8(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
     return _mm256_broadcastb_epi8(_mm_minpos_epu16(_mm_min_epu8(bytes, _mm_srli_epi16(bytes, 8))));
   }
-  static void least8(Reg a, Reg b, Reg& least_a, Reg& least_b) {
-    least_a = least8(a);
-    least_b = least8(b);
+  static void horizontal_min8(Reg a, Reg b, Reg& minimum_a, Reg& minimum_b) {
+    minimum_a = horizontal_min8(a);
+    minimum_b = horizontal_min8(b);
   }
 
-  static std::uint32_t winner8(Reg a) {
+  static std::uint32_t horizontal_argmin8(Reg a) {
     const Reg places = _mm256_setr_epi8(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19,
                                         20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31);
-    return least_lane(_mm256_min_epu16(_mm256_unpacklo_epi8(places, a), _mm256_unpackhi_epi8(places, a))) &
+    return horizontal_argmin16(
+               _mm256_min_epu16(_mm256_unpacklo_epi8(places, a), _mm256_unpackhi_epi8(places, a))) &
            0xFFFF;
   }
 
-  static int sum8(Reg a) {
+  static int horizontal_sum8(Reg a) {
     const Reg sums = _mm256_sad_epu8(a, _mm256_setzero_si256());
     const __m128i two = _mm_add_epi32(_mm256_castsi256_si128(sums), _mm256_extracti128_si256(sums, 1));
     return _mm_cvtsi128_si32(_mm_add_epi32(two, _mm_unpackhi_epi64(two, two)));
   }
 
  private:
-  // From pairs of bytes, raised by the cap; packing will clip what is below 0.
+  // Returns the gradient + cap from pairs of bytes; packing clips values below 0.
   static Reg gradient(Reg right, Reg left, Reg below, int cap) {
     const Reg one_two = _mm256_set1_epi16(0x0201);
     const Reg one_less_one = _mm256_set1_epi16(static_cast<short>(0xFF01));
@@ -162,7 +164,7 @@ struct VectorAvx2 : BytesX86<2> {
                             broadcast16(static_cast<std::uint16_t>(cap)));
   }
 
-  // Which register holds the `position`-th group of 16 disparities of the chunk.
+  // Returns the number of the register that holds the `position`-th group of 16 disparities of the chunk.
   template <int kVectors, bool kEvenOddOrder>
   static constexpr int register_of(int position) {
     if (!kEvenOddOrder) return position;

@@ -1,4 +1,5 @@
-// How well the pixels of a row look like those of the other image.
+// SPDX-License-Identifier: BSD-3-Clause
+// Costs: how well the pixels of a row match those of the other image (docs/matcher.md, section 2.1).
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@
 
 namespace stereod::semiglobal {
 
-/// What a row goes through before it is compared.
+/// Describes rows of pixels for the comparison.
 template <typename V>
 class CensusRows {
   using Reg = typename V::Reg;
@@ -28,7 +29,7 @@ class CensusRows {
       }
       for (int x = 0; x < row_bytes; x += V::kBytes) {
         const auto bit = [&](int i) {
-          return V::bit_and(V::at_most8(V::load(first[i] + x), V::load(second[i] + x)), bits[i]);
+          return V::bit_and(V::less_equal8(V::load(first[i] + x), V::load(second[i] + x)), bits[i]);
         };
         V::store(out + nibble * row_bytes + x,
                  V::bit_or(V::bit_or(bit(0), bit(1)), V::bit_or(bit(2), bit(3))));
@@ -37,33 +38,33 @@ class CensusRows {
   }
 
   /// Kernel::stripe_row.
-  static void stripe(const Shape& shape, const std::uint8_t* plane, std::uint8_t* scratch,
+  static void stripe(const SearchParams& params, const std::uint8_t* plane, std::uint8_t* scratch,
                      std::uint8_t* out) {
-    const int length = shape.row_bytes();
-    const int stripe = shape.stripe_bytes();
-    std::uint8_t* const backwards = shape.vectors == 1 ? out : scratch;
-    for (int i = 0; i < length; i += 16) V::reverse16(plane + length - 16 - i, backwards + i);
-    switch (shape.vectors) {
+    const int length = params.row_bytes();
+    const int stripe = params.stripe_bytes();
+    std::uint8_t* const reversed = params.vectors == 1 ? out : scratch;
+    for (int i = 0; i < length; i += 16) V::reverse16(plane + length - 16 - i, reversed + i);
+    switch (params.vectors) {
       case 1:
         return;
       case 2:
-        return split(backwards, length, out, out + stripe);
+        return split(reversed, length, out, out + stripe);
       case 4: {
         std::uint8_t* const even = scratch + length;
         std::uint8_t* const odd = even + length / 2;
-        split(backwards, length, even, odd);
+        split(reversed, length, even, odd);
         split(even, length / 2, out, out + 2 * stripe);
         return split(odd, length / 2, out + stripe, out + 3 * stripe);
       }
       default:
-        for (int k = 0; k < shape.vectors; ++k) {
-          for (int i = k, at = 0; i < length; i += shape.vectors, ++at) out[k * stripe + at] = backwards[i];
+        for (int k = 0; k < params.vectors; ++k) {
+          for (int i = k, j = 0; i < length; i += params.vectors, ++j) out[k * stripe + j] = reversed[i];
         }
     }
   }
 
  private:
-  // Where the first pixels of the eight pairs are; the second ones are on the other side of the middle.
+  // Offsets of the first pixel of each of the eight pairs; the second one lies opposite.
   static constexpr int kFirst[8][2] = {{-1, -1}, {0, -1},  {1, -1}, {-1, 0},
                                        {-2, 0},  {-2, -2}, {0, -2}, {2, -2}};
 
@@ -72,33 +73,33 @@ class CensusRows {
   }
 };
 
-/// Kernel::cost_row. A row is gone through for two vectors of disparities at a time, so that what is kept
-/// from column to column stays in registers, of which some CPUs have 16.
+/// Kernel::cost_row. Passes over the row once for every two vectors of disparities, so that the values
+/// carried from column to column stay in registers: some CPUs have only 16.
 template <typename V>
 class CostRows {
   using Reg = typename V::Reg;
 
  public:
-  static void row(const Shape& shape, const CostRow& row) {
-    const Fixed fixed(shape, row);
-    shape.decimation_x == 1 ? all<true>(fixed) : all<false>(fixed);
+  static void row(const SearchParams& params, const CostRow& row) {
+    const Fixed fixed(params, row);
+    params.decimation_x == 1 ? all_vectors<true>(fixed) : all_vectors<false>(fixed);
   }
 
  private:
-  // What is the same for all pixels of a row. Copied, because bytes that are stored might lie in a Shape or a
-  // CostRow for all that the compiler knows, and it would look there, and divide, for every pixel again.
+  // What is the same for all pixels of a row. A copy, because for the compiler a stored byte may alias a
+  // SearchParams or a CostRow: it would reload, and divide, for every pixel.
   struct Fixed {
-    Fixed(const Shape& shape, const CostRow& row)
-        : vectors(shape.vectors),
-          last(shape.width - 1),
-          row_bytes(shape.row_bytes()),
-          plane(shape.vectors * shape.stripe_bytes()),
+    Fixed(const SearchParams& params, const CostRow& row)
+        : vectors(params.vectors),
+          last(params.width - 1),
+          row_bytes(params.row_bytes()),
+          plane(params.vectors * params.stripe_bytes()),
           left(row.left),
           right(row.right),
           tables(row.tables),
           offsets(row.offsets),
           costs(row.costs),
-          limit(V::broadcast8(static_cast<std::uint8_t>(shape.gradient_limit))) {}
+          limit(V::broadcast8(static_cast<std::uint8_t>(params.gradient_limit))) {}
     const int vectors;
     const std::ptrdiff_t last, row_bytes, plane;
     const std::uint8_t *const left, *const right, *const tables;
@@ -108,19 +109,19 @@ class CostRows {
   };
 
   template <bool kEveryColumn>
-  static void all(const Fixed& fixed) {
+  static void all_vectors(const Fixed& fixed) {
     int k = 0;
-    for (; k + 2 <= fixed.vectors; k += 2) smoothed<kEveryColumn, 2>(fixed, k);
-    if (k < fixed.vectors) smoothed<kEveryColumn, 1>(fixed, k);
+    for (; k + 2 <= fixed.vectors; k += 2) smooth<kEveryColumn, 2>(fixed, k);
+    if (k < fixed.vectors) smooth<kEveryColumn, 1>(fixed, k);
   }
 
-  // kGroup vectors from `first` on. Weights 1 2 2 2 1 by averages of averages of pairs of neighbors: with
-  // p(x) of the costs at x − 1 and x, and q(x) of p(x) and p(x − 2), the costs at x become the average of
-  // q(x + 1) and q(x + 2). Each round takes an odd and an even column.
+  // Smooths kGroup vectors from number `first` on, by averages: p(x) of the costs at x − 1 and x, q(x) of
+  // p(x) and p(x − 2), and the result at x of q(x + 1) and q(x + 2), which weights the five costs 1 2 2 2 1.
+  // Each iteration takes an odd and an even column.
   template <bool kEveryColumn, int kGroup>
-  static void smoothed(const Fixed& given, int first) {
-    const Fixed fixed = given;  // nobody else has its address
-    const std::ptrdiff_t point = fixed.vectors * V::kBytes;
+  static void smooth(const Fixed& given, int first) {
+    const Fixed fixed = given;  // a local copy, which no pointer aliases
+    const std::ptrdiff_t sample = fixed.vectors * V::kBytes;
     Reg even[kGroup], odd[kGroup];            // costs
     Reg even_pair[kGroup], odd_pair[kGroup];  // p
     Reg quad[kGroup];                         // q of the even column before
@@ -129,15 +130,15 @@ class CostRows {
     for (int k = 0; k < kGroup; ++k) even_pair[k] = odd_pair[k] = quad[k] = even[k];
     std::uint8_t* out = fixed.costs + first * V::kBytes;  // of column x − 1
     const std::ptrdiff_t end = kEveryColumn ? fixed.last + 2 : fixed.last + 1;
-    for (std::ptrdiff_t x = 1; x <= end; x += 2, out += kEveryColumn ? 2 * point : point) {
+    for (std::ptrdiff_t x = 1; x <= end; x += 2, out += kEveryColumn ? 2 * sample : sample) {
       costs_at<kGroup>(fixed, first, x, odd);
 #pragma GCC unroll 2
       for (int k = 0; k < kGroup; ++k) {
         const Reg pair = V::average8(even[k], odd[k]);
-        even[k] = V::average8(odd_pair[k], pair);  // q(x); the costs before are not needed any more
+        even[k] = V::average8(odd_pair[k], pair);  // q(x); overwrites costs that are no longer needed
         odd_pair[k] = pair;
         if constexpr (kEveryColumn)
-          V::store_aligned(out - point + k * V::kBytes, V::average8(quad[k], even[k]));
+          V::store_aligned(out - sample + k * V::kBytes, V::average8(quad[k], even[k]));
       }
       Reg next[kGroup];
       costs_at<kGroup>(fixed, first, x + 1, next);
@@ -153,8 +154,8 @@ class CostRows {
     }
   }
 
-  // The costs of a pixel and its matches: census by a table that the left nibble chooses and the right
-  // nibbles look up, and the gradient.
+  // Computes the costs of a pixel and its matches. Census: the left nibble chooses a table, the right nibbles
+  // are looked up in it.
   template <int kGroup>
   [[gnu::always_inline]] static void costs_at(const Fixed& fixed, int first, std::ptrdiff_t x, Reg* costs) {
     const std::int32_t* const offsets = fixed.offsets + x * fixed.vectors + first;
@@ -165,8 +166,8 @@ class CostRows {
 #pragma GCC unroll 2
     for (int k = 0; k < kGroup; ++k) {
       const std::uint8_t* const right = fixed.right + offsets[k];
-      const Reg census =
-          V::add8(V::look_up(upper, V::load(right)), V::look_up(lower, V::load(right + fixed.plane)));
+      const Reg census = V::add8(V::table_lookup(upper, V::load(right)),
+                                 V::table_lookup(lower, V::load(right + fixed.plane)));
       const Reg step = V::abs_diff_small(gradient, V::load(right + 2 * fixed.plane));
       costs[k] = V::add8(census, V::min8(step, fixed.limit));
     }
