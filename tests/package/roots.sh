@@ -79,17 +79,21 @@ done
 say "the same version once more"
 need_apt install --reinstall "$daemon_deb"
 
+# Two later versions of the package: its own with another patch number.
+version=$(dpkg-deb -f "$debs"/stereod_*.deb Version)
+first_upgrade=${version%.*}.$((${version##*.} + 1)) second_upgrade=${version%.*}.$((${version##*.} + 2))
+
 say "upgrade; a changed configuration survives"
 echo '# my own line' >>"$root/etc/stereod/stereod.yaml"
 echo 'left: mine' >"$root/etc/stereod/calibration.yaml"
-need_apt install "$(newer 0.1.1)"
-[[ $(in_root dpkg-query -W -f='${Version}' stereod) == 0.1.1 ]] || fail "it is not the new version"
+need_apt install "$(newer "$first_upgrade")"
+[[ $(in_root dpkg-query -W -f='${Version}' stereod) == "$first_upgrade" ]] || fail "it is not the new version"
 grep -q '^# my own line$' "$root/etc/stereod/stereod.yaml" || fail "the upgrade has overwritten the configuration"
 
 say "upgrade that changes the configuration too"
-need_apt -o Dpkg::Options::=--force-confold install "$(newer 0.1.2 '1i # from version 0.1.2')"
+need_apt -o Dpkg::Options::=--force-confold install "$(newer "$second_upgrade" "1i # from version $second_upgrade")"
 grep -q '^# my own line$' "$root/etc/stereod/stereod.yaml" || fail "the upgrade has overwritten the configuration"
-grep -q '^# from version 0.1.2$' "$root/etc/stereod/stereod.yaml.dpkg-dist" || fail "the new configuration is not beside the old"
+grep -q "^# from version $second_upgrade\$" "$root/etc/stereod/stereod.yaml.dpkg-dist" || fail "the new configuration is not beside the old"
 
 say "remove"
 need_apt remove stereod
@@ -98,7 +102,7 @@ lacks /lib/systemd/system/stereod.service "it is removed"
 has /etc/stereod/stereod.yaml "configuration stays until the package is purged"
 
 say "install again: the configuration is the one that was left"
-need_apt install /tmp/stereod_0.1.2.deb
+need_apt install "/tmp/stereod_$second_upgrade.deb"
 grep -q '^# my own line$' "$root/etc/stereod/stereod.yaml" || fail "the configuration was overwritten"
 
 say "purge, with recordings on a disk of their own"

@@ -45,8 +45,8 @@ path_of() {
 }
 
 query() { dpkg-query ${sysroot:+--admindir="$sysroot/var/lib/dpkg"} "$@" 2>/dev/null; }
-# package version source
-describe_package() { query -W -f='${Package} ${Version} ${source:Package}\n' "$1" | head -n 1; }
+# package version source, and the names of packages that it provides
+describe_package() { query -W -f='${Package} ${Version} ${source:Package} ${Provides}\n' "$1" | head -n 1; }
 
 declare -A seen=() at=() packages=()  # at: the library of each path it may be known by
 queue=()
@@ -85,11 +85,12 @@ mkdir -p "$(dirname "$output")"
   printf '\nPackageName: %s\nSPDXID: SPDXRef-%s\nPackageVersion: %s\n' "$name" "$name" "$version"
   printf 'PackageDownloadLocation: NOASSERTION\nFilesAnalyzed: false\nPackageLicenseDeclared: BSD-3-Clause\n'
   printf '%s\n' "${!packages[@]}" | LC_ALL=C sort | while read -r key; do
-    read -r package package_version source < <(describe_package "$key") || continue
+    read -r package package_version source provided < <(describe_package "$key") || continue
     id=SPDXRef-${package//[^A-Za-z0-9.-]/-}
     printf '\nPackageName: %s\nSPDXID: %s\nPackageVersion: %s\n' "$package" "$id" "$package_version"
     printf 'PackageDownloadLocation: NOASSERTION\nFilesAnalyzed: false\nPackageSourceInfo: Debian source package %s\n' "$source"
-    printf 'PackageComment: <text>%s</text>\n' "${packages[$key]% }"
+    # Depends may name what a package provides (libspdlog1.10-fmt9): with the provided names the bill accounts for it.
+    printf 'PackageComment: <text>%s%s</text>\n' "${packages[$key]% }" "${provided:+; provides $provided}"
     printf 'Relationship: SPDXRef-%s DEPENDS_ON %s\n' "$name" "$id"
   done
 } >"$output"
