@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Everything for other architectures: builds it against Debian's libraries of that architecture, runs its tests under
 # qemu-user, makes the packages, and compares what they depend on with the ones made for this machine.
-#   tests/cross/run.sh [ARCH...]        arm64, armhf, i386; all of them, if none is named
-# Takes up to half an hour for each architecture on two cores, so it is no part of tests/run.sh. At the end it prints the
-# table of docs/boards.md. JOBS sets how many things are done at once.
+#   tests/cross/run.sh [ARCH...]        arm64, armhf, i386; default: all
+# Takes up to half an hour for each architecture on two cores (suite "cross" of tests/run.sh). At the end it prints the table
+# of docs/boards.md. JOBS sets the number of parallel jobs. Installs the compilers and emulators it needs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 jobs=${JOBS:-$(nproc)}
@@ -27,8 +28,8 @@ step() {
   fi
 }
 
-# LCM's tests send where nobody else listens, if that can be done here. An emulated CPU that shares the machine with another
-# test can be too slow for what a test waits for, so what failed is run once more, alone, and named.
+# Tests send their LCM messages in a network of their own where one can be made. An emulated CPU that shares the machine with
+# another test can be too slow for a test's deadline: failed tests run once more, alone, and are named.
 run_tests() {
   local network=()
   if toolchain/own-network.sh --possible; then network=(toolchain/own-network.sh); fi
@@ -63,17 +64,25 @@ names_of() { sed -nE "s/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) .*$1 .*/\1/p" "
 installed_size() { dpkg-deb --fsys-tarfile "$(only_package "$arch" stereod)" | tar -xO ./usr/bin/stereod | wc -c; }
 small_enough() {
   local allowed
-  allowed=$(sed -n 's/^largest_binary=\([0-9]*\).*/\1/p' tests/package/footprint.sh)
+  allowed=$(sed -n 's/^max_binary=\([0-9]*\).*/\1/p' tests/package/footprint.sh)
   echo "stereod: $(installed_size) bytes; allowed are $allowed"
   [[ $(installed_size) -le $allowed ]]
 }
-# That the bill of materials has every package that the package depends on.
+# That the bill of materials accounts for every package that the package depends on, by its name or by one it provides.
 whole_bill() {
   local deb library
   deb=$(only_package "$arch" stereod)
   dpkg-deb --fsys-tarfile "$deb" | tar -xO ./usr/share/doc/stereod/bill-of-materials.spdx >"$logs/$arch-bill.spdx" || return 1
   for library in $(dpkg-deb -f "$deb" Depends | tr ',' '\n' | sed -nE 's/^ *(lib[^ ]+).*/\1/p'); do
-    grep -q "^PackageName: $library\$" "$logs/$arch-bill.spdx" || { echo "it lacks $library" && return 1; }
+    awk -v name="$library" '
+      $1 == "PackageName:" && $2 == name { found = 1 }
+      /^PackageComment: .*; provides / {
+        sub(/.*; provides /, "")
+        sub(/<\/text>$/, "")
+        count = split($0, provided, /, */)
+        for (i = 1; i <= count; ++i) { sub(/ .*/, "", provided[i]); if (provided[i] == name) found = 1 }
+      }
+      END { exit !found }' "$logs/$arch-bill.spdx" || { echo "the bill of materials lacks $library" && return 1; }
   done
 }
 kib() { echo $((($(stat -c %s "$1") + 1023) / 1024)); }
@@ -104,6 +113,7 @@ one() {
 }
 
 [[ $# -gt 0 ]] || set -- arm64 armhf i386
+toolchain/install-deps.sh --packages
 mkdir -p "$logs"
 arch=package
 step packages make_native || die "the packages for this machine, to compare with, could not be made."

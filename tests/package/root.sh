@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Bare Debian 12 roots for the tests that source this. What is made once is kept in ${XDG_CACHE_HOME:-~/.cache}/stereod/roots.
 test=$(basename "$0" .sh)
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/stereod/roots
@@ -8,7 +9,7 @@ fail() {
   exit 1
 }
 
-# need_root TOOL…: ends with 77, skipped, for who is not root or lacks a tool.
+# need_root TOOL…: ends with 77, skipped, without root rights or a tool.
 need_root() {
   local tool
   [[ $(id -u) -eq 0 ]] || { say "roots are made by root: skipped." && exit 77; }

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# The packages in bare Debian 12 roots: installed, removed, purged, installed again, upgraded; and a program of somebody
-# else's, built against libstereod-dev, that receives frames. Then lintian looks at them.
-#   roots.sh [FOLDER-OF-DEBS]      without one the packages are made (preset package)
-# Ends with 77, skipped, for who is not root or has no mmdebstrap. The roots and what apt fetched are kept in
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs, removes, purges, reinstalls and upgrades the packages in bare Debian 12 roots; builds another project's program
+# against libstereod-dev and receives frames with it; runs lintian on the packages.
+#   roots.sh [DIRECTORY-OF-DEBS]      default: makes the packages (preset package)
+# Ends with 77, skipped, without root rights or mmdebstrap. The roots and what apt fetched are kept in
 # ${XDG_CACHE_HOME:-~/.cache}/stereod/roots.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -18,7 +19,7 @@ if [[ ${1:-} != --inside ]]; then
   in_namespace "$(realpath "$debs")"
 fi
 debs=$2
-# apt with nobody to ask, as on a robot that updates itself: dpkg fails if it would have to ask.
+# apt without a terminal, as on a robot that updates itself: dpkg fails if it would have to ask.
 apt() { in_root apt-get -qq -y --no-install-recommends "$@" </dev/null >"$work/apt.log" 2>&1; }
 need_apt() { apt "$@" || { tail -n 30 "$work/apt.log"; fail "apt-get $*"; }; }
 in_network() { toolchain/own-network.sh "$@"; }
@@ -79,17 +80,21 @@ done
 say "the same version once more"
 need_apt install --reinstall "$daemon_deb"
 
+# Two later versions of the package: its own with another patch number.
+version=$(dpkg-deb -f "$debs"/stereod_*.deb Version)
+first_upgrade=${version%.*}.$((${version##*.} + 1)) second_upgrade=${version%.*}.$((${version##*.} + 2))
+
 say "upgrade; a changed configuration survives"
 echo '# my own line' >>"$root/etc/stereod/stereod.yaml"
 echo 'left: mine' >"$root/etc/stereod/calibration.yaml"
-need_apt install "$(newer 0.1.1)"
-[[ $(in_root dpkg-query -W -f='${Version}' stereod) == 0.1.1 ]] || fail "it is not the new version"
+need_apt install "$(newer "$first_upgrade")"
+[[ $(in_root dpkg-query -W -f='${Version}' stereod) == "$first_upgrade" ]] || fail "it is not the new version"
 grep -q '^# my own line$' "$root/etc/stereod/stereod.yaml" || fail "the upgrade has overwritten the configuration"
 
 say "upgrade that changes the configuration too"
-need_apt -o Dpkg::Options::=--force-confold install "$(newer 0.1.2 '1i # from version 0.1.2')"
+need_apt -o Dpkg::Options::=--force-confold install "$(newer "$second_upgrade" "1i # from version $second_upgrade")"
 grep -q '^# my own line$' "$root/etc/stereod/stereod.yaml" || fail "the upgrade has overwritten the configuration"
-grep -q '^# from version 0.1.2$' "$root/etc/stereod/stereod.yaml.dpkg-dist" || fail "the new configuration is not beside the old"
+grep -q "^# from version $second_upgrade\$" "$root/etc/stereod/stereod.yaml.dpkg-dist" || fail "the new configuration is not beside the old"
 
 say "remove"
 need_apt remove stereod
@@ -98,7 +103,7 @@ lacks /lib/systemd/system/stereod.service "it is removed"
 has /etc/stereod/stereod.yaml "configuration stays until the package is purged"
 
 say "install again: the configuration is the one that was left"
-need_apt install /tmp/stereod_0.1.2.deb
+need_apt install "/tmp/stereod_$second_upgrade.deb"
 grep -q '^# my own line$' "$root/etc/stereod/stereod.yaml" || fail "the configuration was overwritten"
 
 say "purge, with recordings on a disk of their own"
@@ -143,7 +148,7 @@ left=$(cd "$root" && find etc usr lib var run -name '*stereo-calibrate*' ! -path
 
 base development ca-certificates,g++,cmake,make,pkg-config
 enter development
-say "somebody else's program"
+say "another project's program"
 need_apt install "$daemon_deb" "$development_deb"
 cp -r tests/package/consumer "$root/home/consumer"
 in_root sh -ec 'cd /home/consumer && cmake -S . -B build >/dev/null && cmake --build build >/dev/null' || fail "it does not build with CMake"

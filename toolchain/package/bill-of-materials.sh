@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Writes a software bill of materials (SPDX 2.3, tag-value): every library the programs load, directly or through another
 # one, and every library of which only headers were compiled in, with the Debian package and version it came from.
-#   bill-of-materials.sh --name N --version V --headers 'PACKAGE…' --sysroot FOLDER --objdump PROGRAM --output FILE PROGRAM…
-# An empty sysroot is this machine. A sysroot is one of make-sysroot.sh, with its list of packages.
+#   bill-of-materials.sh --name N --version V --headers 'PACKAGE…' --sysroot DIRECTORY --objdump PROGRAM --output FILE PROGRAM…
+# An empty --sysroot means this machine; otherwise a sysroot of make-sysroot.sh, with its list of packages.
 set -euo pipefail
-umask 022  # what is installed is for everybody, whoever makes the package
+umask 022  # installed files are readable by all users, independent of the umask
 
 name= version= headers= sysroot= objdump=objdump output= programs=()
 while [[ $# -gt 0 ]]; do
@@ -20,7 +20,7 @@ while [[ $# -gt 0 ]]; do
   shift
 done
 [[ -n $name && -n $output && ${#programs[@]} -gt 0 ]] || {
-  echo "usage: bill-of-materials.sh --name N --version V --headers 'PACKAGE…' --sysroot FOLDER --objdump PROGRAM" \
+  echo "usage: bill-of-materials.sh --name N --version V --headers 'PACKAGE…' --sysroot DIRECTORY --objdump PROGRAM" \
     "--output FILE PROGRAM…" >&2
   exit 1
 }
@@ -45,8 +45,8 @@ path_of() {
 }
 
 query() { dpkg-query ${sysroot:+--admindir="$sysroot/var/lib/dpkg"} "$@" 2>/dev/null; }
-# package version source
-describe_package() { query -W -f='${Package} ${Version} ${source:Package}\n' "$1" | head -n 1; }
+# package version source, and the names of packages that it provides
+describe_package() { query -W -f='${Package} ${Version} ${source:Package} ${Provides}\n' "$1" | head -n 1; }
 
 declare -A seen=() at=() packages=()  # at: the library of each path it may be known by
 queue=()
@@ -59,7 +59,7 @@ while [[ ${#queue[@]} -gt 0 ]]; do
   [[ -z ${seen[$library]:-} ]] || continue
   seen[$library]=yes
   path=$(path_of "$library")
-  [[ -n $path ]] || die "$library is nowhere where the loader looks."
+  [[ -n $path ]] || die "$library is in no directory of the loader."
   # What an alternative leads to belongs to a package, its link to none. A package may know the library with or without /usr.
   [[ -n $sysroot || $(readlink "$path") != /etc/alternatives/* ]] || path=$(readlink -f "$path")
   file=${path#"$sysroot"}  # a sysroot's lists name files as they lie there
@@ -71,7 +71,7 @@ while IFS= read -r line; do
   [[ ${packages[${line%%: *}]:-} == *"$library "* ]] || packages[${line%%: *}]+="$library "
 done < <(query -S "${!at[@]}" || true)  # an error if it knows one of the names only
 for library in "${!seen[@]}"; do
-  [[ " ${packages[*]} " == *" $library "* ]] || die "no package is known to have $library."
+  [[ " ${packages[*]} " == *" $library "* ]] || die "no installed package contains $library."
 done
 for package in $headers; do packages[$package]='(headers) '; done
 
@@ -85,11 +85,12 @@ mkdir -p "$(dirname "$output")"
   printf '\nPackageName: %s\nSPDXID: SPDXRef-%s\nPackageVersion: %s\n' "$name" "$name" "$version"
   printf 'PackageDownloadLocation: NOASSERTION\nFilesAnalyzed: false\nPackageLicenseDeclared: BSD-3-Clause\n'
   printf '%s\n' "${!packages[@]}" | LC_ALL=C sort | while read -r key; do
-    read -r package package_version source < <(describe_package "$key") || continue
+    read -r package package_version source provided < <(describe_package "$key") || continue
     id=SPDXRef-${package//[^A-Za-z0-9.-]/-}
     printf '\nPackageName: %s\nSPDXID: %s\nPackageVersion: %s\n' "$package" "$id" "$package_version"
     printf 'PackageDownloadLocation: NOASSERTION\nFilesAnalyzed: false\nPackageSourceInfo: Debian source package %s\n' "$source"
-    printf 'PackageComment: <text>%s</text>\n' "${packages[$key]% }"
+    # Depends may name what a package provides (libspdlog1.10-fmt9): with the provided names the bill accounts for it.
+    printf 'PackageComment: <text>%s%s</text>\n' "${packages[$key]% }" "${provided:+; provides $provided}"
     printf 'Relationship: SPDXRef-%s DEPENDS_ON %s\n' "$name" "$id"
   done
 } >"$output"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What is installed, and the three Debian packages made of it by cpack: stereod (the daemon and the tools beside it),
 # stereo-calibrate (the only one that needs OpenCV) and libstereod-dev (for programs that receive what stereod sends).
 include(GNUInstallDirs)
@@ -107,6 +108,14 @@ if(TARGET stereo-calibrate)
   install_bill(stereo-calibrate "libcli11-dev" stereo-calibrate)
 endif()
 
+# What the packages hold, for a build that makes them and nothing else.
+add_custom_target(packaged DEPENDS ${programs} stereod_client)
+foreach(target stereo-calibrate stereod-spy stereod_python_types)
+  if(TARGET ${target})
+    add_dependencies(packaged ${target})
+  endif()
+endforeach()
+
 # --- cpack
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME stereod)
@@ -141,7 +150,7 @@ set(CPACK_DEBIAN_STEREOD_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_STEREOD_PACKAGE_DEPENDS "systemd (>= 252) | systemd-standalone-sysusers, udev, iproute2")
 set(CPACK_DEBIAN_STEREOD_PACKAGE_SUGGESTS "stereo-calibrate, v4l-utils, liblcm-bin, liblcm-java, libjchart2d-java, default-jre")
 set(CPACK_COMPONENT_STEREOD_DESCRIPTION "stereo vision daemon for robot boards
-Reads two webcams, rectifies their pictures with a lookup table, matches them
+Reads two webcams, rectifies their images with a lookup table, matches them
 with a threaded SIMD matcher, semi-global or by blocks, and publishes rows
 of disparity over LCM to the other processes of the robot. With the tools
 stereo-tap (watch, save and check what is published), stereo-view (a live
@@ -156,7 +165,7 @@ set(CPACK_DEBIAN_STEREO-CALIBRATE_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_STEREO-CALIBRATE_PACKAGE_SUGGESTS stereod)
 set(CPACK_COMPONENT_STEREO-CALIBRATE_DESCRIPTION "calibration of two cameras for stereod
 Calibrates a pair of cameras from a printed chessboard, live with guidance or
-from pictures, says whether the result is any good, and takes over and writes
+from images, reports how good the result is, and imports and exports
 calibrations of ROS, OpenCV and Kalibr. May live on another machine than
 stereod.")
 

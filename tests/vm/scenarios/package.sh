@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shows: the package under systemd: install, start, rows, upgrade over a running service, remove, purge
 # seconds: 600
 # needs: package
@@ -52,7 +53,7 @@ pid=$(property MainPID)
 cp /etc/stereod/stereod.yaml mine.yaml
 dpkg --force-confold --install /share/stereod_*.deb
 cmp mine.yaml /etc/stereod/stereod.yaml || fail "the configuration was overwritten"
-[[ $(property ActiveState) == active && $(property MainPID) -ne $pid ]] || fail "it was not started anew"
+[[ $(property ActiveState) == active && $(property MainPID) -ne $pid ]] || fail "it was not restarted"
 streams
 
 echo "=== remove"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shows: the service under systemd: start, rows, reload, unplug and replug, watchdog, stop; an Atom without AVX
 # seconds: 900
 . /share/guest/lib.sh
@@ -104,7 +105,7 @@ need_status 150 "matchr: is not a known key; the nearest known key is 'matcher'"
 cp good.yaml /etc/stereod/stereod.yaml
 systemctl reload stereod || fail "systemctl reload"
 need_status 150 "$streams[^;]*(; no calibration is configured.*)?\$"
-[[ $(property MainPID) -eq $pid ]] || fail "it was started anew"
+[[ $(property MainPID) -eq $pid ]] || fail "it was restarted"
 shown "after four reloads the same process, $(property StatusText)"
 
 echo "=== unplug and replug"
