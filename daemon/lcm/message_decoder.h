@@ -22,8 +22,8 @@ inline constexpr std::string_view kWireLayout<status_t> =
     "dddddddb"         // skew, latency, matching, pacing
     "ddddddss"         // shares, CPU, memory, temperature
     "dddidsdddddidd"   // synchronization, epipolar error, healing
-    "ssssssssddddidddddddd"
-    "ssssssssddddidddddddd";
+    "ssssssssddddiddddddd"
+    "ssssssssddddiddddddd";
 
 /// decode_message() of the client library, for bytes as the receiver hands them over.
 template <typename Message>
