@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/match/match_arguments.h"
 
 #include <CLI/CLI.hpp>
@@ -9,7 +10,7 @@
 
 #include "daemon/imagefile/disparity_file.h"
 
-namespace stereod {
+namespace stereod::tools {
 
 namespace {
 
@@ -27,14 +28,13 @@ struct Flags {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("LEFT", flags.left, "left image, the reference: PNG, JPEG, PGM or PPM")->required();
+  app.add_option("LEFT", flags.left, "left image (reference): PNG, JPEG, PGM or PPM")->required();
   app.add_option("RIGHT", flags.right, "right image of the same size")->required();
-  app.add_option("-o,--output", flags.output, "disparities: .pfm (Middlebury) or .png (16 bit, KITTI)");
-  app.add_option("--color", flags.color, "a image for a person, with a scale: .png");
+  app.add_option("-o,--output", flags.output, "disparities: .pfm (px, Middlebury) or .png (16 bit, KITTI)");
+  app.add_option("--color", flags.color, "disparities in colors with a scale bar: .png");
   app.add_option("--preset", flags.preset,
                  "matcher settings, also instead of all those in --config: " + std::string(kMatcherPresets));
-  app.add_option("--config", flags.config,
-                 "take the settings of matcher and rectification from a stereod.yaml");
+  app.add_option("--config", flags.config, "stereod.yaml with settings of matcher and rectification");
   app.add_option("--disparities", flags.disparities, "how many disparities are searched, 1 to 256");
   app.add_option("--min-disparity", flags.min_disparity, "the first of them, in pixels");
   app.add_option("--method", flags.method, "the matcher: block or semiglobal; default: the preset's");
@@ -53,16 +53,16 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--cost", flags.cost, "sad, ssd or mad (the last two: only --implementation naive)");
   app.add_option("--implementation", flags.implementation, "naive, sliding or simd");
   app.add_option("--isa", flags.isa, "instruction set for simd: auto, scalar, ssse3, sse41, avx2 or neon");
-  app.add_option("--threads", flags.threads, "1 to 256; default: one for each CPU");
-  app.add_option("--calibration", flags.calibration, "rectify both images first, by this calibration.yaml");
+  app.add_option("--threads", flags.threads, "[1…256] default: one per CPU");
+  app.add_option("--calibration", flags.calibration, "calibration.yaml; rectifies both images first");
   app.add_option("--interpolation", flags.interpolation, "with --calibration: bilinear (default) or nearest");
   app.add_option("--alpha", flags.alpha,
                  "with --calibration: from 0, only what both cameras have pixels for, to 1, all of it");
-  app.add_option("--rectified", flags.rectified, "write the two images that were matched: .png .png")
-      ->expected(2);
-  app.add_option("--ground-truth", flags.ground_truth, "compare with the true disparities: image or .pfm");
-  app.add_option("--gt-scale", flags.gt_scale, "gray levels per pixel of disparity in that image; default 1");
-  app.add_option("--repeat", flags.repeat, "match so many times more and print the median time");
+  app.add_option("--rectified", flags.rectified, "write the two matched images: .png .png")->expected(2);
+  app.add_option("--ground-truth", flags.ground_truth, "true disparities to compare with: image or .pfm");
+  app.add_option("--gt-scale", flags.gt_scale,
+                 "[> 0] gray levels per px of disparity in the ground truth image; default 1");
+  app.add_option("--repeat", flags.repeat, "[1…1000000] match N more times and print the median time");
 }
 
 template <typename Value>
@@ -144,7 +144,7 @@ int in_range(int value, int least, int most, const char* flag) {
 std::filesystem::path png_name(const std::string& name) {
   std::filesystem::path path = name;
   if (path.extension() == ".png") return path;
-  throw UsageError(name + ": this image is written as PNG; its name must end with .png");
+  throw UsageError(name + ": must be named .png");
 }
 
 MatchArguments checked(const Flags& flags) {
@@ -160,7 +160,7 @@ MatchArguments checked(const Flags& flags) {
     arguments.rectified = RectifiedFiles{png_name(flags.rectified[0]), png_name(flags.rectified[1])};
   }
   if (!flags.output && !flags.color && !flags.ground_truth && !flags.repeat && !arguments.rectified) {
-    throw UsageError("there is nothing to do; ask for -o, --color, --rectified, --ground-truth or --repeat");
+    throw UsageError("nothing to do; give -o, --color, --rectified, --ground-truth or --repeat");
   }
   if (flags.gt_scale && !flags.ground_truth) {
     throw UsageError("--gt-scale: belongs to --ground-truth, which is not there");
@@ -182,7 +182,7 @@ MatchArguments checked(const Flags& flags) {
 }  // namespace
 
 std::variant<MatchArguments, TextToPrint> parse_match_arguments(int argc, const char* const* argv) {
-  CLI::App app("stereo-match: the matcher of stereod on two image files", "stereo-match");
+  CLI::App app("Runs the matcher of stereod on two image files.", "stereo-match");
   Flags flags;
   declare(app, flags);
   try {
@@ -197,4 +197,4 @@ std::variant<MatchArguments, TextToPrint> parse_match_arguments(int argc, const 
   return checked(flags);
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

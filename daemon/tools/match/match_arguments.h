@@ -1,4 +1,5 @@
-// What stereo-match is asked to do.
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line of stereo-match.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +11,7 @@
 #include "core/match/options.h"
 #include "daemon/config/config.h"
 
-namespace stereod {
+namespace stereod::tools {
 
 /// A command line that makes no sense; what() is one sentence.
 class UsageError : public std::runtime_error {
@@ -27,7 +28,7 @@ struct MatchArguments {
   std::filesystem::path right;
   MatcherOptions matcher;
   int threads = 1;
-  int repeat = 0;  ///< measured runs; 0: nothing is measured
+  int repeat = 0;  ///< measured runs; 0: none
   std::optional<std::filesystem::path> output;
   std::optional<std::filesystem::path> color;
   std::optional<RectifiedFiles> rectified;
@@ -37,14 +38,13 @@ struct MatchArguments {
   double ground_truth_scale = 1;
 };
 
-/// Help or version: a text to print instead of working.
+/// The text of --help, to print instead of matching.
 struct TextToPrint {
   std::string text;
 };
 
-/// Takes the command line apart. The settings of matcher and rectification are the daemon's defaults,
-/// replaced by the configuration's, replaced by the preset's, then each changed by its own flag. Throws
-/// UsageError, FileError for the configuration.
+/// Parses the command line. Precedence of matcher and rectification settings: their own flags, then the preset, then the
+/// configuration, then the defaults of the daemon. Throws UsageError; FileError for the configuration.
 std::variant<MatchArguments, TextToPrint> parse_match_arguments(int argc, const char* const* argv);
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/tap/text_table.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
@@ -111,4 +112,4 @@ std::vector<std::string> TextTable::lines() const {
   return result;
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

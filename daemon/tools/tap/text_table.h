@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Text in columns for the terminal.
 #pragma once
 
@@ -6,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace stereod {
+namespace stereod::tools {
 
 /// `text` from the network made fit for a terminal: control characters (escape sequences among them) and
 /// bytes that are not UTF-8 become '?'.
@@ -46,4 +47,4 @@ class TextTable {
   std::vector<std::vector<std::vector<std::string>>> rows_;  // row, column, line in the cell
 };
 
-}  // namespace stereod
+}  // namespace stereod::tools
