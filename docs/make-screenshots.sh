@@ -21,7 +21,7 @@ trap clean_up EXIT
 # keep FILE NAME: reduces an image to 64 colors and 1000 px width, enough to read it.
 keep() { convert "$1" -resize '1000x>' -colors 64 -strip "PNG8:docs/images/$2"; }
 
-STEREO_SCREENSHOTS=$work $bin/test_view --gtest_filter='BrowserTest.ShowsWhatIsOnTheWire'
+STEREO_SCREENSHOTS=$work $bin/test_view --gtest_filter='Browser.Stream_ShownAsOnTheWire'
 keep "$work/stereo-view.png" stereo-view.png
 
 tests/daemon/tools/spy/run.sh "$bin" build/release/share/stereod "$work/stereod-spy.png"

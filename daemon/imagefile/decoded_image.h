@@ -1,4 +1,5 @@
-// The common ground of the image formats.
+// SPDX-License-Identifier: BSD-3-Clause
+// An image as the codecs decode it.
 #pragma once
 
 #include <cstddef>
@@ -12,25 +13,25 @@
 
 namespace stereod {
 
-/// A image as its file holds it, before it becomes the image that somebody wants.
+/// An image with the channels and samples of its file, before conversion to what the caller asked for.
 struct DecodedImage {
   Size size;
   int channels = 1;                   ///< 1: gray, 3: red, green, blue
-  int max_value = 255;                ///< the sample that means full brightness, 1…65535
-  int sample_bytes = 1;               ///< 1, or 2 in the byte order of this machine
+  int max_value = 255;                ///< sample of full brightness, 1…65535
+  int sample_bytes = 1;               ///< 1, or 2 (host byte order)
   std::vector<std::uint8_t> samples;  ///< row by row without padding
 
-  DecodedImage(Size picture_size, int channel_count, int largest_value)
-      : size(picture_size),
+  DecodedImage(Size image_size, int channel_count, int maximum)
+      : size(image_size),
         channels(channel_count),
-        max_value(largest_value),
-        sample_bytes(largest_value > 255 ? 2 : 1),
+        max_value(maximum),
+        sample_bytes(maximum > 255 ? 2 : 1),
         samples(static_cast<std::size_t>(size.height) * row_bytes()) {}
 
   std::size_t row_bytes() const {
     return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels * sample_bytes);
   }
-  /// Sample number `index`, counted from the top left.
+  /// Returns sample @p index, counted from the top left.
   int sample(std::size_t index) const {
     if (sample_bytes == 1) return samples[index];
     std::uint16_t value = 0;
@@ -47,7 +48,7 @@ struct DecodedImage {
   }
 };
 
-/// Throws FileError if a image that claims to be this large is too large, or empty.
-void check_picture_size(const std::string& file, long long width, long long height);
+/// Throws FileError unless both sides are 1…kMaxImageFileSide px.
+void check_image_size(const std::string& file, long long width, long long height);
 
 }  // namespace stereod

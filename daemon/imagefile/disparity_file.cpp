@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/imagefile/disparity_file.h"
 
 #include <algorithm>
@@ -43,8 +44,8 @@ void write_disparity_png(const std::filesystem::path& path, DisparityView dispar
     for (int x = 0; x < disparity.width(); ++x) {
       const int value = kitti_value(disparity.at(x, y), units_per_pixel);
       if (value > kMaxKittiValue) {
-        throw FileError(path.string() + ": a disparity of " + std::to_string(value / 256) +
-                        " px was found, and a KITTI PNG holds less than 256; write a .pfm file instead");
+        throw FileError(path.string() + ": found a disparity of " + std::to_string(value / 256) +
+                        " px; a KITTI PNG holds less than 256 px; write a .pfm file instead");
       }
       values.at(x, y) = static_cast<std::uint16_t>(value);
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/imagefile/jpeg_codec.h"
 
 #include <turbojpeg.h>
@@ -41,19 +42,19 @@ DecodedImage decode_jpeg(const std::string& file, std::span<const std::uint8_t> 
       0) {
     throw_damaged(file, decoder);
   }
-  check_picture_size(file, width, height);
+  check_image_size(file, width, height);
   if (colorspace == TJCS_CMYK || colorspace == TJCS_YCCK) {
-    throw FileError(file + ": is a CMYK JPEG; only gray and RGB ones are read");
+    throw FileError(file + ": is a CMYK JPEG; only gray and RGB JPEGs are read");
   }
   const bool luma = channels == JpegChannels::kLuma;
-  DecodedImage picture({width, height}, luma ? 1 : 3, 255);
-  // Some files have thousands of empty progressive scans, only to keep a reader busy: libjpeg stops at 500.
+  DecodedImage image({width, height}, luma ? 1 : 3, 255);
+  // A hostile file may have thousands of empty progressive scans; libjpeg stops at 500.
   constexpr int kFlags = TJFLAG_LIMITSCANS;
-  if (tjDecompress2(decoder.get(), bytes.data(), length, picture.samples.data(), width, 0, height,
+  if (tjDecompress2(decoder.get(), bytes.data(), length, image.samples.data(), width, 0, height,
                     luma ? TJPF_GRAY : TJPF_RGB, kFlags) != 0) {
     throw_damaged(file, decoder);
   }
-  return picture;
+  return image;
 }
 
 }  // namespace stereod

@@ -1,4 +1,5 @@
-// JPEG files, by libjpeg-turbo.
+// SPDX-License-Identifier: BSD-3-Clause
+// Decodes JPEG files with libjpeg-turbo.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +13,12 @@ namespace stereod {
 bool looks_like_jpeg(std::span<const std::uint8_t> bytes);
 
 enum class JpegChannels {
-  kLuma,  ///< the brightness that the file itself stores
+  kLuma,  ///< the brightness as the file stores it
   kRgb,
 };
 
-/// Any 8-bit JPEG but CMYK; an orientation tag is ignored. Throws FileError, its sentence beginning with
-/// `file`, also where libjpeg would deliver a image that is gray from the place of the damage on.
+/// Decodes an 8-bit JPEG, gray or RGB. Ignores orientation tags. Throws FileError, beginning with @p file, also for damage that
+/// libjpeg only warns of and fills with gray.
 DecodedImage decode_jpeg(const std::string& file, std::span<const std::uint8_t> bytes, JpegChannels channels);
 
 }  // namespace stereod

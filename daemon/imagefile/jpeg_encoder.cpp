@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/imagefile/jpeg_encoder.h"
 
 #include <turbojpeg.h>
@@ -13,12 +14,12 @@ JpegEncoder::JpegEncoder(Size size, int quality)
 
 JpegEncoder::~JpegEncoder() { tjDestroy(turbo_); }
 
-std::span<const std::uint8_t> JpegEncoder::encode(GrayView picture) noexcept {
+std::span<const std::uint8_t> JpegEncoder::encode(GrayView image) noexcept {
   unsigned char* out = bytes_.data();
   unsigned long size = bytes_.size();
   const int result =
-      tjCompress2(turbo_, picture.row(0), picture.width(), static_cast<int>(picture.stride()),
-                  picture.height(), TJPF_GRAY, &out, &size, TJSAMP_GRAY, quality_, TJFLAG_NOREALLOC);
+      tjCompress2(turbo_, image.row(0), image.width(), static_cast<int>(image.stride()), image.height(),
+                  TJPF_GRAY, &out, &size, TJSAMP_GRAY, quality_, TJFLAG_NOREALLOC);
   if (result != 0) return {};
   return {bytes_.data(), size};
 }

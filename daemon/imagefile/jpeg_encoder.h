@@ -1,4 +1,5 @@
-// Gray images as JPEG, again and again, by libjpeg-turbo.
+// SPDX-License-Identifier: BSD-3-Clause
+// Encodes gray images as JPEG with libjpeg-turbo.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +10,17 @@
 
 namespace stereod {
 
-/// Encodes images of one size. Keeps its memory from image to image.
+/// Encodes images of one size. Reuses its memory.
 class JpegEncoder {
  public:
-  /// `quality`: 1…100. Throws std::bad_alloc.
+  /// @p quality [1…100]. Throws std::bad_alloc.
   JpegEncoder(Size size, int quality);
   ~JpegEncoder();
   JpegEncoder(const JpegEncoder&) = delete;
   JpegEncoder& operator=(const JpegEncoder&) = delete;
 
-  /// The whole file, valid until the next call; empty if libjpeg fails.
-  std::span<const std::uint8_t> encode(GrayView picture) noexcept;
+  /// Returns the JPEG file, valid until the next call; empty if libjpeg fails.
+  std::span<const std::uint8_t> encode(GrayView image) noexcept;
 
  private:
   void* turbo_;

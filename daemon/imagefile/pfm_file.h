@@ -1,4 +1,5 @@
-// PFM: images of 32-bit floats, as the Middlebury stereo benchmark stores disparities.
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads and writes PFM: images of 32-bit floats, the format of the Middlebury stereo benchmark for disparities.
 #pragma once
 
 #include <filesystem>
@@ -7,16 +8,15 @@
 
 namespace stereod {
 
-/// Writes `Pf`, scale −1 (little-endian), the bottom row first. Values go out as they are; in a disparity
-/// image unknown is +infinity. The file appears whole or not at all. The sides have 1 to 16384 pixels.
-/// Throws FileError.
-void write_pfm(const std::filesystem::path& path, ImageView<const float> picture);
+/// Writes `Pf`, scale −1 (little-endian), the bottom row first. Values are written as they are; an unknown disparity is
+/// +infinity. The file appears whole or not at all. Sides: 1…16384 px. Throws FileError.
+void write_pfm(const std::filesystem::path& path, ImageView<const float> image);
 
-/// Reads a gray PFM of either byte order. The size of the scale is ignored, as Middlebury's own files need
-/// it (theirs is a hint for display). Throws FileError: missing, unreadable, color, truncated, no PFM.
+/// Reads a gray PFM of either byte order. Ignores the magnitude of the scale, which is a hint for display in Middlebury's
+/// files. Throws FileError if the file is missing, unreadable, in color, truncated or not a PFM.
 Image<float> read_pfm(const std::filesystem::path& path);
 
-/// Whether the file begins as a PFM does. Throws FileError if it cannot be read.
+/// Returns whether the file begins as a PFM does. Throws FileError if it cannot be read.
 bool is_pfm(const std::filesystem::path& path);
 
 }  // namespace stereod

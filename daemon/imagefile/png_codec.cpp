@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/imagefile/png_codec.h"
 
 #include <png.h>
@@ -13,8 +14,7 @@ namespace stereod {
 
 namespace {
 
-/// What libpng's callbacks are given. They hold nothing that would need a destructor, because libpng leaves
-/// them with a long jump.
+/// State of libpng's callbacks. Without destructors, because libpng leaves the callbacks by longjmp.
 struct ReadState {
   const std::uint8_t* next = nullptr;
   std::size_t left = 0;
@@ -53,14 +53,14 @@ void on_write(png_structp png, png_bytep from, std::size_t count) {
   try {
     state->bytes->insert(state->bytes->end(), from, from + count);
   } catch (...) {
-    stored = false;  // an exception must not fly through libpng
+    stored = false;  // an exception must not pass through libpng
   }
   if (!stored) png_error(png, "out of memory");
 }
 
 void on_flush(png_structp /*png*/) {}
 
-/// Runs `steps`, a function that calls libpng and creates nothing with a destructor; false if libpng gave up.
+/// Runs @p steps, which calls libpng and creates no object with a destructor. Returns false if libpng failed.
 template <typename Steps>
 bool run_guarded(png_structp png, const Steps& steps) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -68,7 +68,7 @@ bool run_guarded(png_structp png, const Steps& steps) {
   return true;
 }
 
-/// libpng's two structures for reading, created and destroyed together.
+/// Owns libpng's two structures for reading.
 class PngReader {
  public:
   explicit PngReader(ReadState& state)
@@ -79,7 +79,7 @@ class PngReader {
       throw std::bad_alloc();
     }
     png_set_read_fn(png_, &state, on_read);
-    // The size is checked here, with a sentence that says what is allowed.
+    // check_image_size() checks the size, with an error that names the limits.
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
   }
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
@@ -90,7 +90,7 @@ class PngReader {
     return run_guarded(png_, [&] { png_read_info(png_, info_); });
   }
 
-  /// Asks for what DecodedImage can hold; the header has been read.
+  /// Selects conversions to what DecodedImage can hold. Call after read_header().
   bool choose_layout() {
     return run_guarded(png_, [&] {
       if (png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png_);
@@ -112,11 +112,11 @@ class PngReader {
 
   long long width() const { return png_get_image_width(png_, info_); }
   long long height() const { return png_get_image_height(png_, info_); }
-  /// Of the file's own pixels at first, of DecodedImage's after choose_layout().
+  /// Returns the size of a row as in the file; after choose_layout() as in DecodedImage.
   std::size_t row_bytes() const { return png_get_rowbytes(png_, info_); }
   int channels() const { return png_get_channels(png_, info_); }
   int max_value() const {
-    // Gray of fewer than 8 bits keeps its small values; palettes have 8-bit colors whatever their index.
+    // Gray of fewer than 8 bits keeps its small values; the colors of a palette always have 8 bits.
     return channels() == 1 ? (1 << depth_in_file_) - 1 : (1 << png_get_bit_depth(png_, info_)) - 1;
   }
 
@@ -151,7 +151,7 @@ class PngWriter {
       png_set_IHDR(png_, info_, static_cast<png_uint_32>(size.width), static_cast<png_uint_32>(size.height),
                    depth, color_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                    PNG_FILTER_TYPE_DEFAULT);
-      // Level 3 is several times as fast as the default and hardly larger on photographs.
+      // Level 3 is several times as fast as the default, and its files are hardly larger for photographs.
       png_set_compression_level(png_, 3);
       png_write_info(png_, info_);
       if (depth == 16 && std::endian::native == std::endian::little) png_set_swap(png_);
@@ -166,20 +166,20 @@ class PngWriter {
 };
 
 template <typename Pixel>
-std::vector<std::uint8_t> encode(const std::string& file, ImageView<const Pixel> picture, int depth,
+std::vector<std::uint8_t> encode(const std::string& file, ImageView<const Pixel> image, int depth,
                                  int color_type) {
-  check_picture_size(file, picture.width(), picture.height());
+  check_image_size(file, image.width(), image.height());
   std::vector<png_bytep> rows;
-  rows.reserve(static_cast<std::size_t>(picture.height()));
-  for (int y = 0; y < picture.height(); ++y) {
-    // libpng only reads them, but its type predates const.
-    rows.push_back(reinterpret_cast<png_bytep>(const_cast<Pixel*>(picture.row(y))));
+  rows.reserve(static_cast<std::size_t>(image.height()));
+  for (int y = 0; y < image.height(); ++y) {
+    // libpng only reads the rows, but its type lacks const.
+    rows.push_back(reinterpret_cast<png_bytep>(const_cast<Pixel*>(image.row(y))));
   }
   std::vector<std::uint8_t> bytes;
   WriteState state;
   state.bytes = &bytes;
   PngWriter writer(state);
-  if (!writer.write(picture.size(), depth, color_type, rows)) {
+  if (!writer.write(image.size(), depth, color_type, rows)) {
     throw FileError(file + ": the image cannot be written as PNG (libpng: " + state.message + ")");
   }
   return bytes;
@@ -197,8 +197,8 @@ DecodedImage decode_png(const std::string& file, std::span<const std::uint8_t> b
   state.left = bytes.size();
   PngReader reader(state);
   if (!reader.read_header()) throw_read_error(file, state);
-  check_picture_size(file, reader.width(), reader.height());
-  // Deflate shrinks data to 1/1032 at best. A header that promises more is not worth the memory.
+  check_image_size(file, reader.width(), reader.height());
+  // Deflate compresses to 1/1032 at best, so a file whose header announces more is truncated. Nothing is allocated for it.
   if (reader.row_bytes() * static_cast<std::size_t>(reader.height()) / 1100 > bytes.size()) {
     state.ran_out = true;
     throw_read_error(file, state);
@@ -206,17 +206,17 @@ DecodedImage decode_png(const std::string& file, std::span<const std::uint8_t> b
   if (!reader.choose_layout()) throw_read_error(file, state);
 
   const Size size{static_cast<int>(reader.width()), static_cast<int>(reader.height())};
-  DecodedImage picture(size, reader.channels(), reader.max_value());
-  if (reader.row_bytes() != picture.row_bytes()) {
+  DecodedImage image(size, reader.channels(), reader.max_value());
+  if (reader.row_bytes() != image.row_bytes()) {
     throw FileError(file + ": the PNG file has a pixel layout that is not supported");
   }
   std::vector<png_bytep> rows;
   rows.reserve(static_cast<std::size_t>(size.height));
   for (int y = 0; y < size.height; ++y) {
-    rows.push_back(picture.samples.data() + static_cast<std::size_t>(y) * picture.row_bytes());
+    rows.push_back(image.samples.data() + static_cast<std::size_t>(y) * image.row_bytes());
   }
   if (!reader.read_rows(rows)) throw_read_error(file, state);
-  return picture;
+  return image;
 }
 
 std::vector<std::uint8_t> encode_png(const std::string& file, ImageView<const std::uint8_t> gray) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/imagefile/pnm_codec.h"
 
 #include "daemon/base/file_error.h"
@@ -9,7 +10,7 @@ namespace {
 bool is_space(std::uint8_t byte) { return byte == ' ' || (byte >= '\t' && byte <= '\r'); }
 bool is_digit(std::uint8_t byte) { return byte >= '0' && byte <= '9'; }
 
-/// Takes a PNM file apart from its front to its end.
+/// Parses a PNM file from front to end.
 class PnmParser {
  public:
   PnmParser(const std::string& file, std::span<const std::uint8_t> bytes) : file_(file), bytes_(bytes) {
@@ -17,20 +18,20 @@ class PnmParser {
     next_ = 2;
   }
 
-  DecodedImage picture() {
+  DecodedImage image() {
     const long width = number("width");
     const long height = number("height");
-    check_picture_size(file_, width, height);
+    check_image_size(file_, width, height);
     const long max_value = number("maxval");
     if (max_value < 1 || max_value > 65535) {
       throw FileError(file_ + ": the maxval is " + std::to_string(max_value) + "; 1 to 65535 is allowed");
     }
     const bool color = kind_ == 3 || kind_ == 6;
     const bool plain = kind_ == 2 || kind_ == 3;
-    // A plain sample takes two bytes at least, so nothing is allocated for a image that cannot be there.
-    const std::size_t least_bytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                                    (color ? 3 : 1) * (plain || max_value > 255 ? 2 : 1);
-    if (bytes_.size() - next_ < least_bytes) throw_truncated();
+    // Nothing is allocated for an image that the file cannot hold. A plain sample takes at least two bytes.
+    const std::size_t min_bytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                                  (color ? 3 : 1) * (plain || max_value > 255 ? 2 : 1);
+    if (bytes_.size() - next_ < min_bytes) throw_truncated();
 
     DecodedImage result({static_cast<int>(width), static_cast<int>(height)}, color ? 3 : 1,
                         static_cast<int>(max_value));
@@ -47,7 +48,7 @@ class PnmParser {
   }
 
  private:
-  /// The next number of the text and the one white-space character that must follow it.
+  /// Returns the next number of the text and skips it and the white-space character that must follow it.
   long number(const char* what) {
     skip_space_and_comments();
     if (next_ == bytes_.size()) throw_truncated();
@@ -107,7 +108,7 @@ bool looks_like_pnm(std::span<const std::uint8_t> bytes) {
 }
 
 DecodedImage decode_pnm(const std::string& file, std::span<const std::uint8_t> bytes) {
-  return PnmParser(file, bytes).picture();
+  return PnmParser(file, bytes).image();
 }
 
 }  // namespace stereod

@@ -1,4 +1,5 @@
-// PGM and PPM files (netpbm's formats P2, P3, P5 and P6).
+// SPDX-License-Identifier: BSD-3-Clause
+// Decodes PGM and PPM files (netpbm's formats P2, P3, P5 and P6).
 #pragma once
 
 #include <cstdint>
@@ -11,9 +12,9 @@ namespace stereod {
 
 bool looks_like_pnm(std::span<const std::uint8_t> bytes);
 
-/// The first image of the file: plain or raw, gray or color, comments, maxval 1…65535. As the format
-/// demands, white space follows every number of a plain image, the last one too: without it a truncated
-/// number would pass for a smaller one. Throws FileError, its sentence beginning with `file`.
+/// Decodes the first image of the file: plain or raw, gray or color, with comments, maxval 1…65535. White space must follow
+/// every number of a plain image, also the last, as the format demands: otherwise a truncated number would be read as a
+/// smaller number. Throws FileError, beginning with @p file.
 DecodedImage decode_pnm(const std::string& file, std::span<const std::uint8_t> bytes);
 
 }  // namespace stereod

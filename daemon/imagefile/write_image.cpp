@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/imagefile/write_image.h"
 
 #include "daemon/base/file.h"

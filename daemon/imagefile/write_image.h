@@ -1,4 +1,5 @@
-// Images to PNG files.
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes images to PNG files.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +9,8 @@
 
 namespace stereod {
 
-/// Each writes a PNG of 8-bit gray, 8-bit RGB or 16-bit gray; the file appears whole or not at all. The sides
-/// have 1 to 16384 pixels. They throw FileError with one sentence.
+/// Write a PNG of 8-bit gray, 8-bit RGB or 16-bit gray. The file appears whole or not at all. Sides: 1…16384 px. Throw
+/// FileError.
 void write_png(const std::filesystem::path& path, ImageView<const std::uint8_t> gray);
 void write_png(const std::filesystem::path& path, ImageView<const Rgb> color);
 void write_png(const std::filesystem::path& path, ImageView<const std::uint16_t> gray);

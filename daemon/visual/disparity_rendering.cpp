@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/visual/disparity_rendering.h"
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "daemon/visual/color_map.h"
 #include "daemon/visual/scale_bar.h"
 
 namespace stereod {
@@ -17,7 +17,7 @@ namespace {
 constexpr int kMinRowsWithScaleBar = 60;
 constexpr std::size_t kValues = std::size_t{std::numeric_limits<std::int16_t>::max()} + 1;
 
-/// The smallest value that at least `share` of all counted ones do not exceed.
+/// Returns the smallest value that at least @p share of all counted values do not exceed.
 int percentile(const std::vector<std::int64_t>& histogram, std::int64_t total, double share) {
   const auto wanted = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(total)));
   std::int64_t seen = 0;
@@ -26,7 +26,7 @@ int percentile(const std::vector<std::int64_t>& histogram, std::int64_t total, d
   return static_cast<int>(value);
 }
 
-/// The color of every disparity there can be.
+/// Returns the color of every 16-bit disparity.
 std::vector<Rgb> color_table(const DisparityRange& range, int units_per_pixel) {
   std::vector<Rgb> colors(kValues);
   for (std::size_t value = 0; value < kValues; ++value) {
@@ -38,8 +38,7 @@ std::vector<Rgb> color_table(const DisparityRange& range, int units_per_pixel) {
 
 void check(const DisparityRange& range, const DisparityRenderingOptions& options) {
   if (!(std::isfinite(range.far_px) && std::isfinite(range.near_px) && range.far_px < range.near_px)) {
-    throw std::invalid_argument(
-        "the range of disparities to color is empty; its far end must be below its near end");
+    throw std::invalid_argument("the range of disparities to draw is empty: far_px must be below near_px");
   }
   if (options.depth && !(std::isfinite(options.depth->focal_baseline) && options.depth->focal_baseline > 0 &&
                          std::isfinite(options.depth->offset_px))) {
@@ -77,15 +76,15 @@ ColorImage draw_disparity(DisparityView disparity, int units_per_pixel,
   }
 
   const std::vector<Rgb> colors = color_table(range, units_per_pixel);
-  ColorImage picture(disparity.width() + legend.width(), disparity.height());
+  ColorImage image(disparity.width() + legend.width(), disparity.height());
   for (int y = 0; y < disparity.height(); ++y) {
-    std::transform(disparity.row(y), disparity.row(y) + disparity.width(), picture.row(y),
+    std::transform(disparity.row(y), disparity.row(y) + disparity.width(), image.row(y),
                    [&](std::int16_t value) {
                      return value < 0 ? kUnmatchedColor : colors[static_cast<std::size_t>(value)];
                    });
-    if (!legend.empty()) std::copy_n(legend.row(y), legend.width(), picture.row(y) + disparity.width());
+    if (!legend.empty()) std::copy_n(legend.row(y), legend.width(), image.row(y) + disparity.width());
   }
-  return picture;
+  return image;
 }
 
 }  // namespace stereod

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/visual/scale_bar.h"
 
 #include <algorithm>
@@ -16,8 +17,8 @@ constexpr Rgb kBackground{20, 20, 22};
 constexpr Rgb kTextColor{214, 214, 218};
 constexpr Rgb kTickColor{150, 150, 156};
 
-void fill(ImageView<Rgb> picture, int x, int y, int width, int height, Rgb color) {
-  for (int row = y; row < y + height; ++row) std::fill_n(picture.row(row) + x, width, color);
+void fill(ImageView<Rgb> image, int x, int y, int width, int height, Rgb color) {
+  for (int row = y; row < y + height; ++row) std::fill_n(image.row(row) + x, width, color);
 }
 
 }  // namespace
@@ -30,9 +31,9 @@ double round_step(double width) {
   return 10 * power;
 }
 
-std::vector<ScaleTick> disparity_ticks(const DisparityRange& range, double least_gap) {
+std::vector<ScaleTick> disparity_ticks(const DisparityRange& range, double min_gap) {
   const double span = range.near_px - range.far_px;
-  const double step = round_step(span * least_gap);
+  const double step = round_step(span * min_gap);
   std::vector<ScaleTick> ticks;
   for (double number = std::ceil(range.far_px / step - 1e-6); number * step <= range.near_px + 1e-6 * span;
        ++number) {
@@ -42,7 +43,7 @@ std::vector<ScaleTick> disparity_ticks(const DisparityRange& range, double least
   return ticks;
 }
 
-std::vector<ScaleTick> depth_ticks(const DisparityRange& range, const DepthScale& scale, double least_gap) {
+std::vector<ScaleTick> depth_ticks(const DisparityRange& range, const DepthScale& scale, double min_gap) {
   static constexpr std::array<std::array<double, 3>, 5> kRoundestFirst{
       {{1, 1, 1}, {2, 5, 5}, {1.5, 3, 7}, {2.5, 4, 6}, {1.2, 3.5, 8}}};
   const double span = range.near_px - range.far_px;
@@ -54,7 +55,7 @@ std::vector<ScaleTick> depth_ticks(const DisparityRange& range, const DepthScale
         const double nearness = (scale.focal_baseline / depth - scale.offset_px - range.far_px) / span;
         if (!(nearness >= 0 && nearness <= 1)) continue;
         const bool crowded = std::any_of(ticks.begin(), ticks.end(), [&](const ScaleTick& other) {
-          return std::abs(other.nearness - nearness) < least_gap;
+          return std::abs(other.nearness - nearness) < min_gap;
         });
         if (!crowded) ticks.push_back({nearness, significant(depth)});
       }
@@ -69,12 +70,12 @@ ColorImage draw_scale_bar(int height, const DisparityRange& range, const std::op
   const int bar_width = 12 * zoom;
   const int tick_length = 4 * zoom;
   const int letter_height = kLetterHeight * zoom;
-  const int bar_top = margin + 2 * letter_height;  // the unit stands above it
+  const int bar_top = margin + 2 * letter_height;  // below the unit
   const int bar_height = height - bar_top - margin;
-  const double least_gap = 2.4 * letter_height / bar_height;
+  const double min_gap = 2.4 * letter_height / bar_height;
 
   const std::vector<ScaleTick> ticks =
-      depth ? depth_ticks(range, *depth, least_gap) : disparity_ticks(range, least_gap);
+      depth ? depth_ticks(range, *depth, min_gap) : disparity_ticks(range, min_gap);
   const std::string unit = depth ? "m" : "px";
   int label_width = 0;
   for (const ScaleTick& tick : ticks) label_width = std::max(label_width, text_width(tick.label, zoom));

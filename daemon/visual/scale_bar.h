@@ -1,4 +1,5 @@
-// The legend beside a disparity image.
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws the scale bar beside disparities.
 #pragma once
 
 #include <optional>
@@ -10,22 +11,22 @@
 
 namespace stereod {
 
-/// A labelled place on the bar; nearness 0 is its lower end, 1 its upper.
+/// A labelled position on the bar; nearness 0 is the lower end, 1 the upper end.
 struct ScaleTick {
   double nearness = 0;
   std::string label;
 };
 
-/// Round disparities, evenly spaced, no closer to each other than `least_gap` (a part of the bar, > 0).
-std::vector<ScaleTick> disparity_ticks(const DisparityRange& range, double least_gap);
+/// Returns round disparities, evenly spaced, at least @p min_gap apart [fraction of the bar, > 0].
+std::vector<ScaleTick> disparity_ticks(const DisparityRange& range, double min_gap);
 
-/// Round depths in meters, the roundest first, wherever they keep `least_gap` from each other.
-std::vector<ScaleTick> depth_ticks(const DisparityRange& range, const DepthScale& scale, double least_gap);
+/// Returns round depths [m], the roundest first, at least @p min_gap apart.
+std::vector<ScaleTick> depth_ticks(const DisparityRange& range, const DepthScale& scale, double min_gap);
 
-/// The legend as a image of its own, `height` rows high (≥ 60); in meters if there is a depth scale.
+/// Returns the scale bar as an image of @p height rows [≥ 60]; in meters with a depth scale, else in pixels.
 ColorImage draw_scale_bar(int height, const DisparityRange& range, const std::optional<DepthScale>& depth);
 
-/// `width` rounded up to 1, 2 or 5 times a power of ten.
+/// Returns @p width rounded up to 1, 2 or 5 times a power of ten.
 double round_step(double width);
 
 }  // namespace stereod

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/visual/tiny_font.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ struct Letter {
   std::array<const char*, kLetterHeight + kLetterDescent> rows;
 };
 
-// The last one stands for everything unknown.
+// The last letter stands for unknown characters.
 constexpr std::array kLetters{
     Letter{'0', 5, {" ### ", "#   #", "#  ##", "# # #", "##  #", "#   #", " ### ", "     ", "     "}},
     Letter{'1', 5, {"  #  ", " ##  ", "  #  ", "  #  ", "  #  ", "  #  ", " ### ", "     ", "     "}},
@@ -40,10 +41,10 @@ const Letter& letter_for(char character) {
   return *found;
 }
 
-void fill_square(ImageView<Rgb> picture, int x, int y, int side, Rgb color) {
-  for (int row = std::max(y, 0); row < std::min(y + side, picture.height()); ++row) {
-    for (int column = std::max(x, 0); column < std::min(x + side, picture.width()); ++column) {
-      picture.at(column, row) = color;
+void fill_square(ImageView<Rgb> image, int x, int y, int side, Rgb color) {
+  for (int row = std::max(y, 0); row < std::min(y + side, image.height()); ++row) {
+    for (int column = std::max(x, 0); column < std::min(x + side, image.width()); ++column) {
+      image.at(column, row) = color;
     }
   }
 }
@@ -56,13 +57,13 @@ int text_width(std::string_view text, int zoom) {
   return std::max(0, dots - 1) * zoom;
 }
 
-void draw_text(ImageView<Rgb> picture, int x, int y, std::string_view text, Rgb color, int zoom) {
+void draw_text(ImageView<Rgb> image, int x, int y, std::string_view text, Rgb color, int zoom) {
   for (const char character : text) {
     const Letter& letter = letter_for(character);
     for (int row = 0; row < kLetterHeight + kLetterDescent; ++row) {
       for (int column = 0; column < letter.width; ++column) {
         if (letter.rows[static_cast<std::size_t>(row)][column] == '#') {
-          fill_square(picture, x + column * zoom, y + row * zoom, zoom, color);
+          fill_square(image, x + column * zoom, y + row * zoom, zoom, color);
         }
       }
     }

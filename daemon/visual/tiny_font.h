@@ -1,4 +1,5 @@
-// Numbers and units in images.
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws numbers and units.
 #pragma once
 
 #include <string_view>
@@ -7,15 +8,15 @@
 
 namespace stereod {
 
-/// The letters are at most 5×7 dots, with one dot between them. Known are the digits, `.`, `-`, `m`, `p`, `x`
-/// and the space; anything else is drawn as a box.
+/// Letters have at most 5×7 dots, with one dot between them. The font has the digits, `.`, `-`, `m`, `p`, `x` and the
+/// space; other characters are drawn as a box.
 inline constexpr int kLetterHeight = 7;   ///< dots above the baseline
-inline constexpr int kLetterDescent = 2;  ///< dots below it, for the p
+inline constexpr int kLetterDescent = 2;  ///< dots below the baseline, for the p
 
-/// Width in pixels of a text at `zoom` (≥ 1) pixels per dot.
+/// Returns the width of a text [px] at @p zoom [px per dot, ≥ 1].
 int text_width(std::string_view text, int zoom);
 
-/// Draws with the text's upper left corner at (x, y); what lies outside the image is left out.
-void draw_text(ImageView<Rgb> picture, int x, int y, std::string_view text, Rgb color, int zoom);
+/// Draws a text with its upper left corner at (@p x, @p y), clipped to the image.
+void draw_text(ImageView<Rgb> image, int x, int y, std::string_view text, Rgb color, int zoom);
 
 }  // namespace stereod

@@ -20,6 +20,9 @@
 #include "tests/bench/stereo_sets.h"
 
 namespace stereod::bench {
+
+using tools::evaluate;
+using tools::Evaluation;
 namespace {
 
 std::vector<QualityMatcher> contestants() {

@@ -48,7 +48,7 @@ listen() {
   cat "$scratch"/check.* | awk '
     $1 == "rows" && NF == 4 { expected += $2; lost += $4 }
     /last row sent/ { sent += $(NF - 2); n++ }
-    /whole frame here/ { here += $(NF - 2); if ($(NF - 1) > worst) worst = $(NF - 1) }
+    /frame complete/ { here += $(NF - 2); if ($(NF - 1) > worst) worst = $(NF - 1) }
     END { if (n == 0) n = 1; printf "%d %d %.1f %.1f %.1f", lost, expected, sent / n, here / n, worst }'
   rm -f "$scratch"/check.*
 }

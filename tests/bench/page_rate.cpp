@@ -49,8 +49,8 @@ int run(int argc, char** argv) {
   const double whole = shown_per_second(browser, seconds);
   browser.evaluate("document.getElementById('half').checked = true");
   const double half = shown_per_second(browser, seconds);
-  browser.evaluate("cloud.show = () => {}");
-  browser.evaluate("cloud.draw = () => {}");
+  browser.evaluate("view.cloud.show = () => {}");
+  browser.evaluate("view.cloud.draw = () => {}");
   const double no_cloud = shown_per_second(browser, seconds);
   std::printf("whole: %.1f, half resolution: %.1f, half and no point cloud: %.1f images a second\n", whole,
               half, no_cloud);

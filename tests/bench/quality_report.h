@@ -8,6 +8,9 @@
 
 namespace stereod::bench {
 
+using tools::evaluate;
+using tools::Evaluation;
+
 struct SetResult {
   std::string set;
   Evaluation evaluation;

@@ -17,6 +17,9 @@
 #include "tests/bench/tables.h"
 
 namespace stereod::bench {
+
+using tools::evaluate;
+using tools::Evaluation;
 namespace {
 
 /// A webcam whose rectified image is the given one, but for a margin that the lens does not reach.

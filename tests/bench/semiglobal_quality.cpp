@@ -24,6 +24,9 @@
 #include "tests/bench/street_scene.h"
 
 namespace stereod::bench {
+
+using tools::evaluate;
+using tools::Evaluation;
 namespace {
 
 QualityMatcher preset(const std::string& name, int p2) {

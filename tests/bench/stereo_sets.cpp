@@ -54,7 +54,7 @@ std::optional<StereoSet> load_middlebury(const fs::path& directory) {
   const std::optional<double> disparities = number_in(json, "num_disparities_suggested");
   if (!scale || !disparities) return std::nullopt;
   return load_set(directory.filename().string(), directory / "left.png", directory / "right.png",
-                  read_ground_truth(directory / "gt.png", *scale), static_cast<int>(*disparities));
+                  tools::read_ground_truth(directory / "gt.png", *scale), static_cast<int>(*disparities));
 }
 
 fs::path skimage_data() {
@@ -104,7 +104,7 @@ class Loader {
     }
     // Full resolution: the image's gray values are pixels.
     found_.sets.push_back(load_set("aloe", data / "aloeL.jpg", data / "aloeR.jpg",
-                                   read_ground_truth(data / "aloeGT.png", 1), 224));
+                                   tools::read_ground_truth(data / "aloeGT.png", 1), 224));
   }
 
   StereoSets take() {

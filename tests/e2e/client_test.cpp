@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The client library with a stereod in another process, and the examples that use it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -49,7 +50,7 @@ class ClientE2e : public testing::Test {
     return {kBin / "stereod", {"--config", config_.string()}, directory_.path()};
   }
 
-  /// Handles messages until something is so; false if it is not within a minute.
+  /// Handles messages until a condition holds. Returns false after a minute.
   static bool handle_until(StereoClient& client, const std::function<bool()>& is_so) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     while (!is_so()) {
@@ -64,7 +65,7 @@ class ClientE2e : public testing::Test {
   StereoClient::Options options_;
 };
 
-TEST_F(ClientE2e, GivesDepthAsTheCalibrationSays) {
+TEST_F(ClientE2e, Stream_DepthAsCalibrated) {
   const Calibration calibration = read_calibration(directory_ / "calibration.yaml");
   StereoClient client(options_);
   int frames = 0, pixels = 0;
@@ -81,7 +82,7 @@ TEST_F(ClientE2e, GivesDepthAsTheCalibrationSays) {
         const double depth = depth_m(calibration, static_cast<double>(px));
         ASSERT_FLOAT_EQ(frame.depth_m(x, y), static_cast<float>(depth));
         const StereoPoint point = frame.point(x, y);
-        if (std::isinf(depth)) {  // as far as can be: no point
+        if (std::isinf(depth)) {  // infinitely far: no point
           ASSERT_TRUE(std::isnan(point.x) && std::isnan(point.y) && std::isnan(point.z));
           continue;
         }
@@ -98,9 +99,9 @@ TEST_F(ClientE2e, GivesDepthAsTheCalibrationSays) {
   EXPECT_EQ(describe_problems(client.counts()), "");
 }
 
-/// Decodes what comes on a channel.
+/// Decodes the messages of a channel.
 template <typename Message>
-void listen(lcm_t* lcm, const char* channel, std::vector<Message>& heard) {
+void listen(lcm_t* lcm, const char* channel, std::vector<Message>& received) {
   lcm_subscribe(
       lcm, channel,
       [](const lcm_recv_buf_t* in, const char*, void* to) {
@@ -110,10 +111,10 @@ void listen(lcm_t* lcm, const char* channel, std::vector<Message>& heard) {
           static_cast<std::vector<Message>*>(to)->push_back(std::move(message));
         }
       },
-      &heard);
+      &received);
 }
 
-TEST_F(ClientE2e, DepthAndCloudAreThoseOfTheDisparities) {
+TEST_F(ClientE2e, DepthAndCloud_EqualDisparities) {
   std::ofstream(config_, std::ios::app)
       << "publish: {region: {left: 80, top: 60, width: 200, height: 120}, decimation_x: 2, depth: true, "
          "cloud: true, cloud_decimation: 4}\n";
@@ -159,7 +160,7 @@ TEST_F(ClientE2e, DepthAndCloudAreThoseOfTheDisparities) {
   for (const pointcloud_t& cloud : clouds) {
     const auto found = frames.find(cloud.seq);
     if (found == frames.end()) continue;
-    // Every fourth pixel of the region is every second one of what is published.
+    // Every fourth pixel of the region is every second published pixel.
     std::vector<StereoPoint> expected;
     for (int v = 0; v < 120; v += 4) {
       for (int u = 0; u < 100; u += 2) {
@@ -168,7 +169,7 @@ TEST_F(ClientE2e, DepthAndCloudAreThoseOfTheDisparities) {
       }
     }
     ASSERT_EQ(cloud.points.size(), expected.size());
-    float sum_sent = 0, sum_expected = 0;  // blocks of rows, and so the points, come in any order
+    float sum_sent = 0, sum_expected = 0;  // blocks of rows, and so the points, arrive in any order
     for (const auto& point : cloud.points) sum_sent += point[0] + point[1] + point[2];
     for (const StereoPoint& point : expected) sum_expected += point.x + point.y + point.z;
     EXPECT_NEAR(sum_sent, sum_expected, 1e-3F * std::abs(sum_expected));
@@ -177,8 +178,8 @@ TEST_F(ClientE2e, DepthAndCloudAreThoseOfTheDisparities) {
   EXPECT_GE(compared_clouds, 5);
 }
 
-// The consumer needs 0.2 s for a frame, the stream brings 20 a second.
-TEST_F(ClientE2e, GivesASlowConsumerTheNewestFrames) {
+// The consumer needs 0.2 s for a frame; the stream has 20 frames a second.
+TEST_F(ClientE2e, SlowConsumer_GetsNewestFrames) {
   StereoClient client(options_);
   std::vector<std::int64_t> numbers;
   client.on_frame([&](StereoFrame&& frame) {
@@ -192,7 +193,7 @@ TEST_F(ClientE2e, GivesASlowConsumerTheNewestFrames) {
   EXPECT_GE(numbers.back() - numbers.front(), 8);
 }
 
-TEST_F(ClientE2e, CarriesOnAmongRubbishAndSaysSo) {
+TEST_F(ClientE2e, RubbishOnChannels_CountedAndSurvived) {
   LcmBus bus(kUrl);
   Random random(3);
   StereoClient client(options_);
@@ -209,10 +210,10 @@ TEST_F(ClientE2e, CarriesOnAmongRubbishAndSaysSo) {
   });
   EXPECT_TRUE(arrived);
   EXPECT_GT(client.counts().messages_ignored, 10);
-  EXPECT_THAT(describe_problems(client.counts()), testing::HasSubstr("were no messages of this stereod"));
+  EXPECT_THAT(describe_problems(client.counts()), testing::HasSubstr("are not messages of this stereod"));
 }
 
-TEST_F(ClientE2e, TellsOfTwoDaemonsOnOneChannel) {
+TEST_F(ClientE2e, TwoDaemons_Reported) {
   StereoClient client(options_);
   int frames = 0;
   client.on_frame([&](StereoFrame&&) { ++frames; });
@@ -225,14 +226,14 @@ TEST_F(ClientE2e, TellsOfTwoDaemonsOnOneChannel) {
   EXPECT_TRUE(handle_until(client, [&] { return frames > before + 5; }));
 }
 
-TEST_F(ClientE2e, ThrowsWhatAHandlerThrows) {
+TEST_F(ClientE2e, HandlerThrows_HandleThrows) {
   StereoClient client(options_);
   client.on_rows([](const RowBlock&) { throw std::runtime_error("enough"); });
   ChildProgram stereod = start_stereod();
   EXPECT_THROW(handle_until(client, [] { return false; }), std::runtime_error);
 }
 
-TEST_F(ClientE2e, TheExamplesDoWhatTheySay) {
+TEST_F(ClientE2e, Examples_Run) {
   ::setenv("LCM_DEFAULT_URL", kUrl, 1);
   ChildProgram stereod = start_stereod();
   const ProgramRun points = run_program(kBin / "example_nearest_point", {"3", "CLIENT"}, directory_.path());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // stereo-match as a user runs it.
 #include <gtest/gtest.h>
 #include <regex.h>
@@ -25,7 +26,7 @@ namespace {
 constexpr Size kSize{160, 120};
 constexpr int kTrueDisparity = 7;
 
-/// Whether the text has a place that the POSIX extended regular expression fits.
+/// Returns whether a POSIX extended regular expression matches a part of the text.
 bool contains(const std::string& text, const char* pattern) {
   regex_t compiled;
   if (::regcomp(&compiled, pattern, REG_EXTENDED | REG_NOSUB) != 0) return false;
@@ -48,7 +49,7 @@ class StereoMatch : public testing::Test {
  protected:
   StereoMatch() {
     write_pair(kSize);
-    // The truth: 7 px everywhere, × 16; not known in the left columns, whose partners are outside.
+    // Ground truth: 7 px × 16 everywhere; unknown in the left columns, whose partners lie outside the right image.
     GrayImage truth(kSize);
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 20; x < kSize.width; ++x) truth.at(x, y) = 16 * kTrueDisparity;
@@ -56,7 +57,7 @@ class StereoMatch : public testing::Test {
     write_png(directory_ / "truth.png", truth.view());
   }
 
-  /// A plane of random gray values at kTrueDisparity.
+  /// Writes a plane of random gray values at kTrueDisparity.
   void write_pair(Size size) {
     const std::vector<int> texture = some_samples((size.width + kTrueDisparity) * size.height, 255);
     GrayImage left(size);
@@ -78,13 +79,13 @@ class StereoMatch : public testing::Test {
   ProgramRun match(const std::vector<std::string>& arguments) const {
     return run_program(std::filesystem::path(STEREOD_BIN_DIR) / "stereo-match", arguments, directory_.path());
   }
-  /// The same with the pair in front.
+  /// Runs stereo-match with the pair and more arguments.
   ProgramRun match_pair(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {file("left.png"), file("right.png")});
     return match(arguments);
   }
 
-  /// Exit status 2, nothing on stdout, and one line on stderr that holds all `parts`.
+  /// Expects exit status 2, nothing on stdout, and one line on stderr with all @p parts.
   static void expect_refused(const ProgramRun& run, const std::vector<std::string>& parts) {
     EXPECT_EQ(run.status, 2) << run.err;
     EXPECT_EQ(run.out, "");
@@ -102,7 +103,7 @@ class StereoMatch : public testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(StereoMatch, WritesDisparitiesInBothFormats) {
+TEST_F(StereoMatch, Output_BothFormats) {
   expect_good(match_pair({"-o", file("out.pfm"), "--disparities", "16"}));
   expect_good(match_pair({"-o", file("out.png"), "--disparities", "16"}));
   const Image<float> pixels = read_pfm(directory_ / "out.pfm");
@@ -115,7 +116,7 @@ TEST_F(StereoMatch, WritesDisparitiesInBothFormats) {
   EXPECT_EQ(kitti.at(0, 0), 0);
 }
 
-TEST_F(StereoMatch, EveryImplementationWritesTheSame) {
+TEST_F(StereoMatch, Implementations_WriteTheSame) {
   const std::vector<std::string> common{"--preset", "thesis", "--disparities", "16", "--window", "9"};
   std::vector<Bytes> results;
   for (const char* implementation : {"naive", "sliding", "simd"}) {
@@ -130,7 +131,7 @@ TEST_F(StereoMatch, EveryImplementationWritesTheSame) {
   for (const Bytes& result : results) EXPECT_EQ(result, results.front());
 }
 
-TEST_F(StereoMatch, ComparesWithGroundTruth) {
+TEST_F(StereoMatch, GroundTruth_Compared) {
   const ProgramRun run = match_pair(
       {"--preset", "thesis", "--disparities", "16", "--ground-truth", file("truth.png"), "--gt-scale", "16"});
   expect_good(run);
@@ -140,15 +141,15 @@ TEST_F(StereoMatch, ComparesWithGroundTruth) {
   EXPECT_TRUE(contains(run.out, "mean absolute error +0[.][0-9][0-9][0-9] px")) << run.out;
 }
 
-// Which are which is not in the files, so it is said; and what is judged is judged both ways.
-TEST_F(StereoMatch, SaysHowManyPixelsAreFilledInAndHowGoodTheOthersAre) {
+// The files do not mark filled pixels, so the program prints their number and evaluates with and without them.
+TEST_F(StereoMatch, HoleFilling_ReportsMeasuredAndFilled) {
   const std::vector<std::string> common{"--preset", "dense",       "--disparities",  "16",
                                         "-o",       file("o.pfm"), "--ground-truth", file("left.png")};
   const ProgramRun filled = match_pair(common);
   expect_good(filled);
-  EXPECT_TRUE(contains(filled.out, "left.png, measured alone\n")) << filled.out;
-  EXPECT_TRUE(contains(filled.out, "left.png, with what is filled\n")) << filled.out;
-  EXPECT_TRUE(contains(filled.out, "measured: [0-9.]+ % of the pixels; filled in from neighbors: [0-9.]+ %"))
+  EXPECT_TRUE(contains(filled.out, "left.png, measured pixels only\n")) << filled.out;
+  EXPECT_TRUE(contains(filled.out, "left.png, measured and filled pixels\n")) << filled.out;
+  EXPECT_TRUE(contains(filled.out, "measured: [0-9.]+ % of the pixels; filled from neighbors: [0-9.]+ %"))
       << filled.out;
   const auto answered = [this] {
     const Image<float> pixels = read_pfm(directory_ / "o.pfm");
@@ -168,29 +169,28 @@ TEST_F(StereoMatch, SaysHowManyPixelsAreFilledInAndHowGoodTheOthersAre) {
   EXPECT_LT(answered(), all);
 }
 
-TEST_F(StereoMatch, ScaleOfTheGroundTruthMatters) {
+TEST_F(StereoMatch, GroundTruthScale_Applied) {
   const ProgramRun run =
       match_pair({"--disparities", "16", "--ground-truth", file("truth.png"), "--gt-scale", "8"});
   expect_good(run);
   EXPECT_TRUE(contains(run.out, "off by more than 2 px +100[.]00 % +100[.]00 %")) << run.out;
 }
 
-TEST_F(StereoMatch, MeasuresTime) {
+TEST_F(StereoMatch, Repeat_MeasuresTime) {
   const ProgramRun run = match_pair({"--repeat", "3"});
   expect_good(run);
   EXPECT_TRUE(contains(run.out, "^median [0-9]+[.][0-9]+ ms, minimum [0-9]+[.][0-9]+ ms\n$")) << run.out;
 }
 
-TEST_F(StereoMatch, PaintsAPicture) {
+TEST_F(StereoMatch, Color_WritesImage) {
   expect_good(match_pair({"--color", file("view.png")}));
   const ColorImage view = read_color(directory_ / "view.png");
   EXPECT_EQ(view.height(), kSize.height);
   EXPECT_GT(view.width(), kSize.width) << "the scale bar";
 }
 
-// Ten and a half rows up: bilinear is the mean of two rows, nearest one of them; with_alpha out, there is a
-// margin.
-TEST_F(StereoMatch, RectifiesAsItIsToldTo) {
+// The right camera is 10.5 rows off: bilinear gives the mean of two rows, nearest one of them; alpha 1 leaves a margin.
+TEST_F(StereoMatch, RectificationOptions_Applied) {
   Calibration calibration;
   calibration.image = kSize;
   calibration.left = calibration.right = pinhole(kSize);
@@ -228,12 +228,12 @@ TEST_F(StereoMatch, RectifiesAsItIsToldTo) {
                  {"bilinear, nearest"});
 }
 
-TEST_F(StereoMatch, RectifiesFirst) {
+TEST_F(StereoMatch, Calibration_RectifiesFirst) {
   Calibration calibration;
   calibration.image = kSize;
   calibration.left = pinhole(kSize);
   calibration.right = pinhole(kSize);
-  calibration.right.camera.cy += 3;  // the right camera looks 3 rows too far up
+  calibration.right.camera.cy += 3;  // the right camera looks 3 rows too high
   calibration.baseline_m = 0.07;
   write_calibration(directory_ / "rig.yaml", calibration);
   expect_good(match_pair({"--calibration", file("rig.yaml"), "--rectified", file("l.png"), file("r.png"),
@@ -248,8 +248,8 @@ TEST_F(StereoMatch, RectifiesFirst) {
   }
 }
 
-TEST_F(StereoMatch, FlagsBeatPresetBeatsConfig) {
-  // With 5 disparities the true one, 7, is not among them.
+TEST_F(StereoMatch, Precedence_FlagsPresetConfig) {
+  // 5 disparities exclude the true one, 7.
   write_bytes(directory_ / "stereod.yaml",
               bytes_of("cameras: {source: synthetic}\nmatcher: {disparities: 5}\n"));
   const auto middle = [&](std::vector<std::string> arguments) {
@@ -264,7 +264,7 @@ TEST_F(StereoMatch, FlagsBeatPresetBeatsConfig) {
   EXPECT_NEAR(middle({"--disparities", "4", "--min-disparity", "6"}), kTrueDisparity, 0.1);
 }
 
-TEST_F(StereoMatch, HelpsWhenAsked) {
+TEST_F(StereoMatch, Help_Printed) {
   const ProgramRun run = match({"--help"});
   expect_good(run);
   for (const char* flag : {"LEFT", "--output", "--preset", "--calibration", "--ground-truth", "--repeat"}) {
@@ -272,10 +272,10 @@ TEST_F(StereoMatch, HelpsWhenAsked) {
   }
 }
 
-TEST_F(StereoMatch, RefusesWrongUsage) {
+TEST_F(StereoMatch, WrongUsage_Refused) {
   expect_refused(match({}), {"LEFT is required", "--help"});
   expect_refused(match({file("left.png")}), {"RIGHT is required"});
-  expect_refused(match_pair({}), {"there is nothing to do; ask for -o, --color"});
+  expect_refused(match_pair({}), {"nothing to do; give -o, --color"});
   expect_refused(match_pair({"--nonsense"}), {"--nonsense"});
   expect_refused(match_pair({"--repeat", "many"}), {"--repeat", "many"});
   expect_refused(match_pair({"--repeat", "0"}), {"--repeat: found 0, allowed 1…1000000"});
@@ -290,7 +290,7 @@ TEST_F(StereoMatch, RefusesWrongUsage) {
   expect_refused(match_pair({"--ground-truth", file("truth.png"), "--gt-scale", "0"}), {"--gt-scale"});
 }
 
-TEST_F(StereoMatch, RefusesImpossibleMatcherSettings) {
+TEST_F(StereoMatch, InvalidMatcherOptions_Refused) {
   const auto refused = [&](std::vector<std::string> arguments, const std::vector<std::string>& parts) {
     arguments.insert(arguments.end(), {"--repeat", "1"});
     expect_refused(match_pair(arguments), parts);
@@ -312,7 +312,7 @@ TEST_F(StereoMatch, RefusesImpossibleMatcherSettings) {
   refused({"--method", "census"}, {"--method: found 'census'", "block, semiglobal"});
 }
 
-TEST_F(StereoMatch, RefusesBadPictures) {
+TEST_F(StereoMatch, BadImages_Refused) {
   const auto refused = [&](const std::string& left, const std::string& right,
                            const std::vector<std::string>& parts) {
     expect_refused(match({left, right, "-o", file("out.pfm")}), parts);
@@ -323,8 +323,8 @@ TEST_F(StereoMatch, RefusesBadPictures) {
   refused(file("left.png"), directory_.path().string(), {directory_.path().string() + ": is a directory"});
   write_bytes(directory_ / "empty.png", {});
   refused(file("empty.png"), file("right.png"), {file("empty.png") + ": the file is empty"});
-  write_bytes(directory_ / "text.png", bytes_of("not a image"));
-  refused(file("text.png"), file("right.png"), {file("text.png") + ": is no image that is known here"});
+  write_bytes(directory_ / "text.png", bytes_of("not an image"));
+  refused(file("text.png"), file("right.png"), {file("text.png") + ": is not an image in a known format"});
   Bytes half = bytes_in(directory_ / "right.png");
   half.resize(half.size() / 2);
   write_bytes(directory_ / "half.png", half);
@@ -334,9 +334,9 @@ TEST_F(StereoMatch, RefusesBadPictures) {
           {file("small.png") + ": has 150×120 pixels", file("left.png") + " has 160×120"});
 }
 
-TEST_F(StereoMatch, RefusesUnreadablePictures) {
+TEST_F(StereoMatch, UnreadableImages_Refused) {
   if (::geteuid() == 0) {
-    // Nothing is forbidden to root, but the start of its own memory is not there.
+    // Root may read every file, but the start of its own memory is unmapped.
     expect_refused(match({"/proc/self/mem", file("right.png"), "--repeat", "1"}),
                    {"/proc/self/mem: the file cannot be read ("});
     return;
@@ -346,7 +346,7 @@ TEST_F(StereoMatch, RefusesUnreadablePictures) {
                  {file("left.png") + ": the file cannot be read (Permission denied)"});
 }
 
-TEST_F(StereoMatch, RefusesOutputsThatItCannotWrite) {
+TEST_F(StereoMatch, UnwritableOutputs_Refused) {
   expect_refused(match_pair({"-o", file("out.tif")}),
                  {file("out.tif") + ": disparities are written to files named .pfm or .png"});
   expect_refused(match_pair({"-o", file("no/out.pfm")}),
@@ -355,7 +355,7 @@ TEST_F(StereoMatch, RefusesOutputsThatItCannotWrite) {
   expect_refused(match_pair({"--rectified", file("l.png"), file("r.bmp")}), {file("r.bmp"), ".png"});
 }
 
-TEST_F(StereoMatch, RefusesBadGroundTruth) {
+TEST_F(StereoMatch, BadGroundTruth_Refused) {
   expect_refused(match_pair({"--ground-truth", file("none.png")}),
                  {file("none.png") + ": the file does not exist"});
   write_png(directory_ / "small.png", GrayImage(150, 120).view());
@@ -363,7 +363,7 @@ TEST_F(StereoMatch, RefusesBadGroundTruth) {
                  {file("small.png") + ": has 150×120 pixels", file("left.png") + " has 160×120"});
 }
 
-TEST_F(StereoMatch, RefusesBadCalibrationAndConfig) {
+TEST_F(StereoMatch, BadCalibrationOrConfig_Refused) {
   expect_refused(match_pair({"--repeat", "1", "--calibration", file("none.yaml")}), {file("none.yaml")});
   expect_refused(match_pair({"--repeat", "1", "--config", file("none.yaml")}), {file("none.yaml")});
   write_bytes(directory_ / "bad.yaml", bytes_of("cameras: {source: synthetic}\nmatcher: {windw: 5}\n"));

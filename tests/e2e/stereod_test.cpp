@@ -110,9 +110,9 @@ TEST_P(StereodRows, ArriveInAnotherProcessAsStereoMatchMakesThem) {
     }
   });
   LcmReceiver receiver(kUrl);
-  TapOptions tap;
+  tools::TapOptions tap;
   tap.prefix = "E2E";
-  listen_for_frames(receiver, tap, assembler);
+  tools::listen_for_frames(receiver, tap, assembler);
   ChildProgram stereod(kBin / "stereod", {"--config", write_config(GetParam().matcher).string()},
                        directory_.path());
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -154,9 +154,9 @@ TEST_F(StereodTest, PlaysARecordingOnceAndEnds) {
     ++frames;
   });
   LcmReceiver receiver(kUrl);
-  TapOptions tap;
+  tools::TapOptions tap;
   tap.prefix = "E2E";
-  listen_for_frames(receiver, tap, assembler);
+  tools::listen_for_frames(receiver, tap, assembler);
   ChildProgram stereod(kBin / "stereod", {"--config", file.string()}, directory_.path());
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (frames < kPairs && std::chrono::steady_clock::now() < deadline) {

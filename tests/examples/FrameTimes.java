@@ -1,4 +1,6 @@
-// Prints how long each frame took and how far the way ahead is free, for as many frames as the command line says.
+// SPDX-License-Identifier: BSD-3-Clause
+// Prints the latency of frames:
+//   FrameTimes FRAMES PREFIX
 import java.util.concurrent.CountDownLatch;
 import lcm.lcm.LCM;
 import stereod.frame_t;
@@ -11,7 +13,7 @@ public class FrameTimes {
                 frame_t frame = new frame_t(data);
                 System.out.printf("frame %d: %.2f ms%n", frame.frame, frame.latency_us / 1000.0);
                 frames.countDown();
-            } catch (java.io.IOException notOurs) { /* another program's message */ }
+            } catch (java.io.IOException notOfStereod) { /* a message of another program */ }
         });
         frames.await();
         System.exit(0);

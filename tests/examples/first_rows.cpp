@@ -1,5 +1,5 @@
-// Reacts to rows while the rest of the frame is still being matched, within an event loop of one's own:
-// poll() wakes it when there is something to handle. Ends after as many blocks as the command line says.
+// SPDX-License-Identifier: BSD-3-Clause
+// Reacts to rows while the rest of the frame is still being matched, in an event loop with poll().
 //   example_first_rows BLOCKS [PREFIX]
 #include <poll.h>
 

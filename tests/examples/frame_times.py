@@ -1,4 +1,5 @@
-"""Prints how long each frame took, for as many frames as the command line says: frame_times.py FRAMES PREFIX"""
+# SPDX-License-Identifier: BSD-3-Clause
+"""Prints the latency of frames: frame_times.py FRAMES PREFIX"""
 import sys
 import lcm
 from stereod import frame_t

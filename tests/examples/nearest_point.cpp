@@ -1,4 +1,5 @@
-// Prints the nearest point of each frame, in meters, for as many frames as the command line says.
+// SPDX-License-Identifier: BSD-3-Clause
+// Prints the nearest point of each frame [m].
 //   example_nearest_point FRAMES [PREFIX]
 #include <cstdio>
 #include <cstdlib>

@@ -1,9 +1,11 @@
-// Any bytes as messages on the client library's three channels: each message is a byte that chooses the
-// channel, two bytes for its length, then that many bytes. Whatever is handed over is read to its last pixel.
-// Built with clang and -fsanitize=fuzzer this is a fuzzer; else client_by_mutation.cpp drives it, as a test.
+// SPDX-License-Identifier: BSD-3-Clause
+// Passes any bytes as messages to the three channels of the client library: a byte for the channel, two bytes for the length,
+// then the message. Reads every pixel of what is handed over. A fuzzer with clang and -fsanitize=fuzzer; otherwise
+// client_by_mutation.cpp drives it as a test.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <vector>
 
 #include "daemon/client/stereod_client.h"
@@ -25,6 +27,8 @@ void read(const StereoFrame& frame) {
   require(frame.depths_m().size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const auto points = frame.points(), all = frame.points(1, Pixels::kMeasuredOrFilled);
   require(points.size() <= all.size());
+  if (frame.confidence.width() > 0)
+    require(frame.confidence.width() == width && frame.confidence.height() == height);
   for (const StereoPoint& point : all) require(std::isfinite(point.z));
   require(frame.grid.image_x(width - 1) < 4096 && frame.grid.image_y(height - 1) < 4096);
 }
@@ -32,12 +36,16 @@ void read(const StereoFrame& frame) {
 void read(const RowBlock& block) {
   const disparity_rows_t& m = block.message();
   std::vector<std::int16_t> row(static_cast<std::size_t>(m.width));
+  int sum = 0;
   for (int y = m.first_row; y < m.first_row + m.row_count; ++y) {
     block.copy_row(y, row.data());
+    if (block.has_confidence())
+      sum = std::accumulate(block.confidence_row(y), block.confidence_row(y) + m.width, sum);
     for (const std::int16_t value : row) require(value >= DisparityMap::kNone);
     block.copy_row(y, row.data(), Pixels::kMeasuredOrFilled);
     for (const std::int16_t value : row) require(value >= DisparityMap::kNone);
   }
+  require(sum >= 0);
 }
 
 void run(const std::uint8_t* data, std::size_t size) {
@@ -51,7 +59,7 @@ void run(const std::uint8_t* data, std::size_t size) {
   while (size >= 3) {
     const int channel = data[0] % 3;
     const std::size_t length = std::min(size - 3, std::size_t{data[1]} + 256 * std::size_t{data[2]});
-    // A copy of its own, so that a read past its end is seen.
+    // A separate copy, so that a sanitizer notices a read past its end.
     const std::vector<std::uint8_t> message(data + 3, data + 3 + length);
     if (channel == 0) client->take_rows(message.data(), message.size());
     if (channel == 1) client->take_frame(message.data(), message.size());

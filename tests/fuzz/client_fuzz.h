@@ -1,4 +1,5 @@
-// What the fuzz target of the client library tells its driver.
+// SPDX-License-Identifier: BSD-3-Clause
+// The interface between the fuzz target of the client library and its driver.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace stereod {
 
-/// How many frames the latest input made.
+/// Number of frames that the latest input made.
 extern int frames_of_last_input;
 
 }  // namespace stereod

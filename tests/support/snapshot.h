@@ -1,4 +1,5 @@
-// A moment of stereo-view, as its page takes it apart.
+// SPDX-License-Identifier: BSD-3-Clause
+// Decodes a snapshot of stereo-view as its page does.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,14 +19,14 @@ struct DecodedSnapshot {
   std::string left;
 };
 
-inline DecodedSnapshot decoded_moment(const std::string& bytes) {
+inline DecodedSnapshot decode_snapshot(const std::string& bytes) {
   std::uint32_t length = 0;
   std::memcpy(&length, bytes.data(), 4);
   DecodedSnapshot result{YAML::Load(bytes.substr(4, length)), {}, {}};
   const std::string compressed = bytes.substr(4 + length, result.json["disparity_bytes"].as<std::size_t>());
   result.left = bytes.substr(4 + length + compressed.size());
   if (compressed.empty()) return result;
-  std::vector<std::uint8_t> planes(2'000'000);  // low bytes, then high ones
+  std::vector<std::uint8_t> planes(2'000'000);  // low bytes, then high bytes
   uLongf size = planes.size();
   EXPECT_EQ(
       uncompress(planes.data(), &size, reinterpret_cast<const Bytef*>(compressed.data()), compressed.size()),

@@ -41,7 +41,9 @@ endif()
 # --- libstereod-dev
 get_target_property(lcm_header_dir stereod_lcmtypes STEREOD_GENERATED_DIR)
 install(TARGETS stereod_client ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libstereod-dev)
-install(FILES ${PROJECT_SOURCE_DIR}/daemon/client/stereod_client.h
+# Every header of daemon/client, but nothing of its subdirectories.
+file(GLOB client_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/daemon/client/*.h)
+install(FILES ${client_headers}
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stereod COMPONENT libstereod-dev)
 install(DIRECTORY ${lcm_header_dir}/stereod DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libstereod-dev
   FILES_MATCHING PATTERN "*.hpp")

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/match/evaluation.h"
 
 #include <algorithm>
@@ -8,11 +9,11 @@
 #include "daemon/imagefile/pfm_file.h"
 #include "daemon/imagefile/read_image.h"
 
-namespace stereod {
+namespace stereod::tools {
 
 namespace {
 
-/// What is summed up over the image.
+/// Sums over the image.
 struct Sums {
   long known = 0;
   long matched = 0;
@@ -73,11 +74,11 @@ Evaluation evaluate(DisparityView disparity, int units_per_pixel, ImageView<cons
 
 Image<float> read_ground_truth(const std::filesystem::path& path, double scale) {
   if (is_pfm(path)) return read_pfm(path);
-  const Image<std::uint16_t> picture = read_gray16(path);
-  Image<float> truth(picture.size());
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) {
-      const int value = picture.at(x, y);
+  const Image<std::uint16_t> image = read_gray16(path);
+  Image<float> truth(image.size());
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const int value = image.at(x, y);
       truth.at(x, y) =
           value == 0 ? std::numeric_limits<float>::infinity() : static_cast<float>(value / scale);
     }
@@ -85,4 +86,4 @@ Image<float> read_ground_truth(const std::filesystem::path& path, double scale) 
   return truth;
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -13,7 +13,7 @@
 #include "daemon/config/sections.h"
 #include "daemon/imagefile/disparity_file.h"
 
-namespace stereod {
+namespace stereod::tools {
 
 namespace {
 
@@ -84,7 +84,7 @@ void apply_table(const std::vector<Option<Settings>>& table, const std::vector<T
 }
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("LEFT", flags.left, "left image, the reference: PNG, JPEG, PGM or PPM")->required();
+  app.add_option("LEFT", flags.left, "left image (reference): PNG, JPEG, PGM or PPM")->required();
   app.add_option("RIGHT", flags.right, "right image of the same size")->required();
   app.add_option("-o,--output", flags.output, "disparities: .pfm (Middlebury) or .png (16 bit, KITTI)");
   app.add_option("--color", flags.color, "an image for a person, with a scale: .png");
@@ -152,7 +152,7 @@ int in_range(int value, int minimum, int maximum, const char* flag) {
 std::filesystem::path png_name(const std::string& name) {
   std::filesystem::path path = name;
   if (path.extension() == ".png") return path;
-  throw UsageError(name + ": this image is written as PNG; its name must end with .png");
+  throw UsageError(name + ": must be named .png");
 }
 
 MatchArguments checked(const Flags& flags) {
@@ -168,7 +168,7 @@ MatchArguments checked(const Flags& flags) {
     arguments.rectified = RectifiedFiles{png_name(flags.rectified[0]), png_name(flags.rectified[1])};
   }
   if (!flags.output && !flags.color && !flags.ground_truth && !flags.repeat && !arguments.rectified) {
-    throw UsageError("there is nothing to do; ask for -o, --color, --rectified, --ground-truth or --repeat");
+    throw UsageError("nothing to do; give -o, --color, --rectified, --ground-truth or --repeat");
   }
   if (flags.gt_scale && !flags.ground_truth) {
     throw UsageError("--gt-scale: belongs to --ground-truth, which is not there");
@@ -190,7 +190,7 @@ MatchArguments checked(const Flags& flags) {
 }  // namespace
 
 std::variant<MatchArguments, TextToPrint> parse_match_arguments(int argc, const char* const* argv) {
-  CLI::App app("stereo-match: the matcher of stereod on two image files", "stereo-match");
+  CLI::App app("Runs the matcher of stereod on two image files.", "stereo-match");
   Flags flags;
   declare(app, flags);
   try {
@@ -205,4 +205,4 @@ std::variant<MatchArguments, TextToPrint> parse_match_arguments(int argc, const 
   return checked(flags);
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -11,7 +11,7 @@
 #include "daemon/base/usage_error.h"
 #include "daemon/config/config.h"
 
-namespace stereod {
+namespace stereod::tools {
 
 struct RectifiedFiles {
   std::filesystem::path left;
@@ -43,4 +43,4 @@ struct TextToPrint {
 /// @throws UsageError; FileError for the configuration file.
 std::variant<MatchArguments, TextToPrint> parse_match_arguments(int argc, const char* const* argv);
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/match/match_report.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 
-namespace stereod {
+namespace stereod::tools {
 
 namespace {
 
@@ -17,8 +18,8 @@ std::string formatted(const char* format, Values... values) {
 
 }  // namespace
 
-std::string evaluation_table(const Evaluation& evaluation, const std::string& file, double gray_per_px) {
-  std::string table = "against " + file + "\n";
+std::string evaluation_table(const Evaluation& evaluation, const std::string& title, double gray_per_px) {
+  std::string table = "against " + title + "\n";
   table += formatted("%-26s %10s %10s\n", "", "all known", "matched");
   table += formatted("%-26s %10ld %10ld\n", "pixels", evaluation.known, evaluation.matched);
   table +=
@@ -36,8 +37,7 @@ std::string evaluation_table(const Evaluation& evaluation, const std::string& fi
 std::string filled_line(long measured, long filled, long all) {
   const double share = all > 0 ? 100.0 / static_cast<double>(all) : 0;
   return formatted(
-      "measured: %.1f %% of the pixels; filled in from neighbors: %.1f %%, which the files do not tell "
-      "apart "
+      "measured: %.1f %% of the pixels; filled from neighbors: %.1f %%, not marked in the files "
       "(--no-hole-filling leaves them empty)\n",
       share * static_cast<double>(measured), share * static_cast<double>(filled));
 }
@@ -50,4 +50,4 @@ std::string timing_line(std::vector<double> times_ms) {
   return formatted("median %.3f ms, minimum %.3f ms\n", median, times_ms.front());
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,4 +1,5 @@
-// What stereo-match prints.
+// SPDX-License-Identifier: BSD-3-Clause
+// The output of stereo-match.
 #pragma once
 
 #include <string>
@@ -6,16 +7,15 @@
 
 #include "daemon/tools/match/evaluation.h"
 
-namespace stereod {
+namespace stereod::tools {
 
-/// A table of some lines; `file` is the name of the ground truth, `gray_per_px` what evaluate() was given.
-std::string evaluation_table(const Evaluation& evaluation, const std::string& file, double gray_per_px);
+/// Returns a table. @p title names the ground truth; @p gray_per_px as for evaluate().
+std::string evaluation_table(const Evaluation& evaluation, const std::string& title, double gray_per_px);
 
-/// What to say where filled pixels were written: how many are measured, as the files do not tell them apart.
-/// `measured` and `filled` are numbers of pixels.
+/// Returns a line with the shares of @p measured and @p filled pixels of @p all [px], which the files do not distinguish.
 std::string filled_line(long measured, long filled, long all);
 
-/// "median X ms, minimum Y ms" and a line break; the times are in milliseconds, at least one.
+/// Returns "median X ms, minimum Y ms" and a line break. @p times_ms: at least one.
 std::string timing_line(std::vector<double> times_ms);
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,4 +1,5 @@
-// stereo-match: the daemon's matcher on two image files.
+// SPDX-License-Identifier: BSD-3-Clause
+// stereo-match: runs the matcher of stereod on two image files.
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -25,33 +26,33 @@
 #include "daemon/tools/match/match_report.h"
 #include "daemon/visual/disparity_rendering.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 constexpr int kBadInput = 2;
 constexpr int kFailure = 1;
 
-struct Picture {
+struct InputImage {
   GrayImage image;
-  std::optional<ValidityMask> mask;  ///< if it was rectified
+  std::optional<ValidityMask> mask;  ///< empty unless rectified
 };
 
 struct Pair {
-  Picture left, right;
+  InputImage left, right;
 };
 
-/// `what` is how the file has its size: "has", "is for".
-void require_size(const std::filesystem::path& file, const char* what, Size found,
+/// @p verb: "has" or "is for".
+void require_size(const std::filesystem::path& file, const char* verb, Size found,
                   const std::filesystem::path& reference, Size wanted) {
   if (found == wanted) return;
-  throw FileError(file.string() + ": " + what + " " + to_string(found) + " pixels, but " +
-                  reference.string() + " has " + to_string(wanted) + "; they must have one size");
+  throw FileError(file.string() + ": " + verb + " " + to_string(found) + " pixels, but " +
+                  reference.string() + " has " + to_string(wanted) + "; the sizes must be equal");
 }
 
-Picture rectified(const GrayImage& source, const CameraCalibration& calibration, Interpolation interpolation,
-                  WorkerPool& pool) {
+InputImage rectified(const GrayImage& source, const CameraCalibration& calibration,
+                     Interpolation interpolation, WorkerPool& pool) {
   const RectifyMap map(calibration, {source.size(), source.view().stride(), 1}, interpolation);
-  Picture result{GrayImage(source.size()), map.mask()};
+  InputImage result{GrayImage(source.size()), map.mask()};
   rectify_gray(map, source.row(0), result.image.view(), pool);
   return result;
 }
@@ -86,13 +87,12 @@ void write_view(const MatchArguments& arguments, const DisparityImage& disparity
     options.depth = DepthScale{calibration->left.projection.fx * calibration->baseline_m,
                                disparity_offset_px(*calibration)};
   }
-  const ColorImage picture = draw_disparity(disparity.view(), arguments.matcher.units_per_pixel(), options);
-  write_png(*arguments.color, picture.view());
+  const ColorImage image = draw_disparity(disparity.view(), arguments.matcher.units_per_pixel(), options);
+  write_png(*arguments.color, image.view());
 }
 
-/// Who asks for filled pixels wants them in the files, which have no mark for them: so a line says how
-/// many they are.
-std::string take_filled_too(DisparityImage& disparity) {
+/// Converts filled pixels to plain disparities. Returns a line with their number, because the files cannot mark them.
+std::string include_filled(DisparityImage& disparity) {
   long measured = 0, filled = 0;
   for (int y = 0; y < disparity.height(); ++y) {
     for (int x = 0; x < disparity.width(); ++x) {
@@ -134,10 +134,11 @@ void run(const MatchArguments& arguments) {
   matcher.match(pair.left.image.view(), pair.right.image.view(), disparity.view());
 
   if (arguments.matcher.hole_filling) {
-    // A filled pixel is below 0 until it is taken for more, so it counts as unmatched here.
+    // Filled pixels are negative until include_filled(), so they count as unmatched here.
     if (truth)
-      print_comparison(arguments, disparity, *truth, arguments.ground_truth->string() + ", measured alone");
-    const std::string line = take_filled_too(disparity);
+      print_comparison(arguments, disparity, *truth,
+                       arguments.ground_truth->string() + ", measured pixels only");
+    const std::string line = include_filled(disparity);
     if (arguments.output || arguments.color) std::fputs(line.c_str(), stdout);
   }
   const int units = arguments.matcher.units_per_pixel();
@@ -148,40 +149,42 @@ void run(const MatchArguments& arguments) {
     write_png(arguments.rectified->right, pair.right.image.view());
   }
   if (truth) {
-    print_comparison(
-        arguments, disparity, *truth,
-        arguments.ground_truth->string() + (arguments.matcher.hole_filling ? ", with what is filled" : ""));
+    print_comparison(arguments, disparity, *truth,
+                     arguments.ground_truth->string() +
+                         (arguments.matcher.hole_filling ? ", measured and filled pixels" : ""));
   }
   if (arguments.repeat > 0) {
-    // The run above has touched all memory, so that the first measured one does not pay for it.
+    // The run above has touched all memory, so the first measured run does not include page faults.
     std::fputs(timing_line(measure(matcher, pair, disparity, arguments.repeat)).c_str(), stdout);
   }
 }
 
-int say(int status, const char* sentence) {
-  std::fprintf(stderr, "stereo-match: %s\n", sentence);
+int fail(int status, const char* message) {
+  std::fprintf(stderr, "stereo-match: %s\n", message);
   return status;
 }
 
-}  // namespace
-}  // namespace stereod
-
-int main(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   try {
-    const auto arguments = stereod::parse_match_arguments(argc, argv);
-    if (const auto* help = std::get_if<stereod::TextToPrint>(&arguments)) {
+    const auto arguments = parse_match_arguments(argc, argv);
+    if (const auto* help = std::get_if<TextToPrint>(&arguments)) {
       std::fputs(help->text.c_str(), stdout);
     } else {
-      stereod::run(std::get<stereod::MatchArguments>(arguments));
+      run(std::get<MatchArguments>(arguments));
     }
     return 0;
-  } catch (const stereod::FileError& error) {
-    return stereod::say(stereod::kBadInput, error.what());
-  } catch (const stereod::UsageError& error) {
-    return stereod::say(stereod::kBadInput, error.what());
+  } catch (const FileError& error) {
+    return fail(kBadInput, error.what());
+  } catch (const UsageError& error) {
+    return fail(kBadInput, error.what());
   } catch (const std::invalid_argument& error) {
-    return stereod::say(stereod::kBadInput, error.what());
+    return fail(kBadInput, error.what());
   } catch (const std::exception& error) {
-    return stereod::say(stereod::kFailure, error.what());
+    return fail(kFailure, error.what());
   }
 }
+
+}  // namespace
+}  // namespace stereod::tools
+
+int main(int argc, char** argv) { return stereod::tools::run_program(argc, argv); }

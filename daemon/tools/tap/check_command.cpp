@@ -1,4 +1,5 @@
-// stereo-tap check: does everything arrive, and how fast?
+// SPDX-License-Identifier: BSD-3-Clause
+// stereo-tap check: counts what arrives and measures latency.
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -11,12 +12,12 @@
 #include "daemon/tools/tap/tap.h"
 #include "daemon/tools/tap/text_table.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// µs since the Unix epoch.
+/// Returns the time [µs since the Unix epoch].
 std::int64_t now_utime() {
   using std::chrono::microseconds;
   return std::chrono::duration_cast<microseconds>(std::chrono::system_clock::now().time_since_epoch())
@@ -47,15 +48,16 @@ int run_check(const TapOptions& tap, const CheckOptions& options, StopSignals& s
   LcmReceiver receiver(tap.lcm_url);
   const Reception reception = receive_for(tap, options.seconds, receiver, stop);
   if (!reception.anything_arrived()) {
-    complain("no whole frame on " + tap.channel("DISPARITY") + " and " + tap.channel("FRAME") + " within " +
-             fixed(options.seconds, 1) + " s (" + receiver.url() + "); is stereod streaming?");
+    print_error("no complete frame on " + tap.channel("DISPARITY") + " and " + tap.channel("FRAME") +
+                " within " + fixed(options.seconds, 1) + " s (" + receiver.url() +
+                "); is stereod streaming?");
     return kNothingArrived;
   }
   for (const std::string& line : report_lines(reception)) std::printf("%s\n", line.c_str());
-  if (!reception.anything_lost()) return kAllWell;
+  if (!reception.anything_lost()) return kSuccess;
   if (reception.counts.messages_of_another > 0) return kSomethingLost;  // the report says what to do
-  if (const auto instruction = receive_buffer_advice(kernel_receive_buffer_limit())) complain(*instruction);
+  if (const auto advice = receive_buffer_advice(kernel_receive_buffer_limit())) print_error(*advice);
   return kSomethingLost;
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/tap/frame_listener.h"
 
 #include "daemon/lcm/message_decoder.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 template <typename Message>
 void listen(LcmReceiver& receiver, const std::string& channel, FrameAssembler& assembler) {
-  // The message is kept from one call to the next so that its memory is used again.
+  // The message is a member of the lambda to reuse its memory.
   receiver.subscribe(channel, [&assembler, message = Message()](std::span<const std::byte> bytes) mutable {
     if (!decode_message(bytes, message)) return assembler.count_ignored();
     assembler.take(message);
@@ -21,4 +22,4 @@ void listen_for_frames(LcmReceiver& receiver, const TapOptions& tap, FrameAssemb
   listen<frame_t>(receiver, tap.channel("FRAME"), assembler);
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

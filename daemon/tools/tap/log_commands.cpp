@@ -1,4 +1,5 @@
-// stereo-tap record and play: LCM logs.
+// SPDX-License-Identifier: BSD-3-Clause
+// stereo-tap record and play: write and publish LCM logs.
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -13,20 +14,20 @@
 #include "daemon/tools/tap/tap.h"
 #include "daemon/tools/tap/text_table.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// Between two messages; more is a pause that nobody needs, or a damaged time.
+// Longest wait for the next message; a longer one is a pause in the recording or a damaged time.
 constexpr double kMaxWait_s = 10;
 
 void print(const LogSummary& summary) {
   for (const std::string& line : summary.lines()) std::printf("%s\n", line.c_str());
 }
 
-/// Sleeps until then, or until a signal comes; false if one did.
+/// Sleeps until @p due. Returns false if a signal arrived first.
 bool sleep_until(Clock::time_point due, StopSignals& stop) {
   while (!stop.arrived()) {
     const Clock::time_point now = Clock::now();
@@ -36,10 +37,10 @@ bool sleep_until(Clock::time_point due, StopSignals& stop) {
   return false;
 }
 
-void complain_of_damage(const PlayOptions& options, const LcmLogReader& reader) {
+void report_damage(const PlayOptions& options, const LcmLogReader& reader) {
   if (reader.damaged_places() == 0) return;
-  complain(options.file.string() + ": " + std::to_string(reader.damaged_places()) +
-           " places of the log were damaged and passed over (a log that was cut off ends with one).");
+  print_error(options.file.string() + ": " + std::to_string(reader.damaged_places()) +
+              " damaged places skipped (a truncated log ends with one)");
 }
 
 int list_log(const PlayOptions& options) {
@@ -47,8 +48,8 @@ int list_log(const PlayOptions& options) {
   LogSummary summary;
   for (LogEvent event; reader.next(event);) summary.add(event.channel, event.utime, event.data.size());
   print(summary);
-  complain_of_damage(options, reader);
-  return summary.messages() > 0 ? kAllWell : kNothingArrived;
+  report_damage(options, reader);
+  return summary.messages() > 0 ? kSuccess : kNothingArrived;
 }
 
 }  // namespace
@@ -67,8 +68,8 @@ int run_record(const TapOptions& tap, const RecordOptions& options, StopSignals&
   while (Clock::now() < end && !stop.arrived()) receiver.receive(milliseconds(50));
   writer.finish();
   print(summary);
-  if (summary.messages() > 0) return kAllWell;
-  complain("nothing on " + tap.channel("*") + " (" + receiver.url() + "); is stereod running?");
+  if (summary.messages() > 0) return kSuccess;
+  print_error("no message on " + tap.channel("*") + " (" + receiver.url() + "); is stereod running?");
   return kNothingArrived;
 }
 
@@ -78,7 +79,7 @@ int run_play(const TapOptions& tap, const PlayOptions& options, StopSignals& sto
   LcmBus bus(tap.lcm_url);
   LogSummary summary;
   std::int64_t refused = 0, jumps = 0;
-  double after_s = 0, previous_s = 0;
+  double due_s = 0, previous_s = 0;
   const Clock::time_point begin = Clock::now();
   for (LogEvent event; reader.next(event);) {
     const double event_s = static_cast<double>(event.utime) * 1e-6;
@@ -87,10 +88,10 @@ int run_play(const TapOptions& tap, const PlayOptions& options, StopSignals& sto
     if (std::abs(step_s) > kMaxWait_s) {
       ++jumps;
     } else {
-      after_s += step_s / options.speed;
+      due_s += step_s / options.speed;
     }
     if (!sleep_until(
-            begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(after_s)),
+            begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s)),
             stop)) {
       break;
     }
@@ -98,14 +99,13 @@ int run_play(const TapOptions& tap, const PlayOptions& options, StopSignals& sto
     summary.add(event.channel, event.utime, event.data.size());
   }
   print(summary);
-  complain_of_damage(options, reader);
+  report_damage(options, reader);
   if (jumps > 0) {
-    complain("the times of " + std::to_string(jumps) +
-             " messages were more than ten seconds before or after those of the last one; they were not "
-             "waited for.");
+    print_error(std::to_string(jumps) + " messages are more than " + fixed(kMaxWait_s, 0) +
+                " s before or after their predecessor; published without waiting");
   }
-  if (refused > 0) complain(std::to_string(refused) + " messages were refused by the network.");
-  return refused > 0 ? kSomethingLost : summary.messages() > 0 ? kAllWell : kNothingArrived;
+  if (refused > 0) print_error(std::to_string(refused) + " messages could not be sent");
+  return refused > 0 ? kSomethingLost : summary.messages() > 0 ? kSuccess : kNothingArrived;
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/tap/log_summary.h"
 
 #include "daemon/tools/tap/text_table.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 std::string megabytes(std::int64_t bytes) { return fixed(static_cast<double>(bytes) / 1e6, 2) + " MB"; }
@@ -40,4 +41,4 @@ std::vector<std::string> LogSummary::lines() const {
   return table.lines();
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,4 +1,5 @@
-// What is in a log, as a person wants to know it.
+// SPDX-License-Identifier: BSD-3-Clause
+// Summarizes the messages of a log.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace stereod {
+namespace stereod::tools {
 
 /// Counts messages by channel.
 class LogSummary {
@@ -16,9 +17,9 @@ class LogSummary {
   void add(std::string_view channel, std::int64_t utime, std::size_t bytes);
 
   std::int64_t messages() const { return messages_; }
-  /// From the first message to the last, s; 0 if there are fewer than two, or if time went backwards.
+  /// Returns the time from the first message to the last [s]; 0 for fewer than two messages or if time went backwards.
   double seconds() const;
-  /// Channels with messages, a second and size; then the sum, with the time it took.
+  /// Returns the messages, rate and size of each channel, then the total and its duration.
   std::vector<std::string> lines() const;
 
  private:
@@ -31,4 +32,4 @@ class LogSummary {
   std::int64_t first_utime_ = 0, last_utime_ = 0;
 };
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,4 +1,5 @@
-// stereo-tap: listens to stereod over LCM.
+// SPDX-License-Identifier: BSD-3-Clause
+// stereo-tap: receives from stereod over LCM.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <functional>
@@ -8,14 +9,14 @@
 #include "daemon/lcm/url.h"
 #include "daemon/tools/tap/tap.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 constexpr const char* kExitStatuses =
-    "Exit status: 0 all well; 1 wrong usage, no network, or a file that cannot be written;\n"
-    "2 nothing arrived; 3 something was lost.";
+    "Exit status: 0 success; 1 wrong usage, no network, or a file that cannot be written;\n"
+    "2 nothing arrived; 3 rows or frames were lost.";
 
-/// What the command line asks for.
+/// The options of all commands, and the command to run.
 struct CommandLine {
   TapOptions tap;
   StatusOptions status;
@@ -27,16 +28,18 @@ struct CommandLine {
 };
 
 void add_common_options(CLI::App& app, CommandLine& line) {
-  app.add_option("--lcm-url", line.tap.lcm_url,
-                 "where to listen (default: the environment's LCM_DEFAULT_URL, else " +
-                     std::string(kDefaultLcmUrl) + ")");
-  app.add_option("--prefix", line.tap.prefix, "what the daemon's channels begin with")->capture_default_str();
+  app.add_option(
+      "--lcm-url", line.tap.lcm_url,
+      "LCM URL (default: LCM_DEFAULT_URL of the environment, else " + std::string(kDefaultLcmUrl) + ")");
+  app.add_option("--prefix", line.tap.prefix, "prefix of the channels, lcm.prefix of the daemon")
+      ->capture_default_str();
 }
 
 void add_status(CLI::App& app, CommandLine& line) {
-  CLI::App* command = app.add_subcommand("status", "How the daemon is, once a second, until Ctrl-C.");
-  command->add_flag("--once", line.status.once, "print one status and end");
-  command->add_option("--timeout", line.status.timeout_s, "how long --once waits, s")
+  CLI::App* command =
+      app.add_subcommand("status", "Shows the status of the daemon once a second, until Ctrl-C.");
+  command->add_flag("--once", line.status.once, "print one status and exit");
+  command->add_option("--timeout", line.status.timeout_s, "[s, 0.1…86400] longest wait with --once")
       ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str();
   command->callback([&line] {
@@ -46,12 +49,13 @@ void add_status(CLI::App& app, CommandLine& line) {
 
 void add_save(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand(
-      "save", "Writes frames into files: disparities in px (.pfm) and a image in colors (.png).");
-  command->add_option("--frames", line.save.frames, "how many")
+      "save", "Saves frames to files: measured disparities in px (.pfm) and in colors (.png).");
+  command->add_option("--frames", line.save.frames, "[1…1000000] number of frames")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--out", line.save.directory, "the directory; made if it is not there")->required();
-  command->add_option("--timeout", line.save.timeout_s, "how long to wait for the next frame, s")
+  command->add_option("--out", line.save.directory, "directory for the files; created if missing")
+      ->required();
+  command->add_option("--timeout", line.save.timeout_s, "[s, 0.1…86400] longest wait for the next frame")
       ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str();
   command->callback(
@@ -60,13 +64,13 @@ void add_save(CLI::App& app, CommandLine& line) {
 
 void add_check(CLI::App& app, CommandLine& line) {
   CLI::App* command =
-      app.add_subcommand("check", "Counts what arrives and what is lost, and measures how long it takes.");
-  command->add_option("--seconds", line.check.seconds, "how long to listen")
+      app.add_subcommand("check", "Counts received and lost frames and rows, and measures the latency.");
+  command->add_option("--seconds", line.check.seconds, "[s, 0.1…86400] duration")
       ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str();
   command->footer(
-      "A frame that was under way when the listening began or ended is not counted. The time until a\n"
-      "frame is here means something only on the daemon's machine, or with clocks that agree.\n\n" +
+      "Frames that are incomplete at the start or the end are not counted. The latency up to this\n"
+      "program is valid only on the daemon's machine or with synchronized clocks.\n\n" +
       std::string(kExitStatuses));
   command->callback([&line] {
     line.command = [&line](StopSignals& stop) { return run_check(line.tap, line.check, stop); };
@@ -74,10 +78,10 @@ void add_check(CLI::App& app, CommandLine& line) {
 }
 
 void add_record(CLI::App& app, CommandLine& line) {
-  CLI::App* command = app.add_subcommand(
-      "record", "Records all of the daemon's channels into an LCM log, and says what is in it.");
-  command->add_option("file", line.record.file, "the log; replaced if it is there")->required();
-  command->add_option("--seconds", line.record.seconds, "how long; 0: until Ctrl-C")
+  CLI::App* command =
+      app.add_subcommand("record", "Records all channels of the daemon to an LCM log and prints a summary.");
+  command->add_option("file", line.record.file, "LCM log; replaced if it exists")->required();
+  command->add_option("--seconds", line.record.seconds, "[s] duration; 0: until Ctrl-C")
       ->check(CLI::Range(0.0, 1e8))
       ->capture_default_str();
   command->callback([&line] {
@@ -87,23 +91,24 @@ void add_record(CLI::App& app, CommandLine& line) {
 
 void add_play(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand(
-      "play", "Publishes what is in an LCM log, at the pace of the log, and says what it was.");
-  command->add_option("file", line.play.file, "the log")->required();
-  command->add_option("--speed", line.play.speed, "2: twice as fast")
+      "play", "Publishes the messages of an LCM log at their recorded pace and prints a summary.");
+  command->add_option("file", line.play.file, "LCM log")->required();
+  command->add_option("--speed", line.play.speed, "[0.001…1000] speed factor; 2: twice as fast")
       ->check(CLI::Range(0.001, 1000.0))
       ->capture_default_str();
-  command->add_flag("--list", line.play.list_only, "only say what is in it");
+  command->add_flag("--list", line.play.list_only, "print the summary, publish nothing");
   command->callback(
       [&line] { line.command = [&line](StopSignals& stop) { return run_play(line.tap, line.play, stop); }; });
 }
 
 int run(int argc, char** argv) {
   CommandLine line;
-  CLI::App app("Listens to stereod over LCM: shows its status, saves its disparities, checks what arrives.",
-               "stereo-tap");
+  CLI::App app(
+      "Receives from stereod over LCM: shows its status, saves disparities, checks for losses, records and plays logs.",
+      "stereo-tap");
   app.footer(kExitStatuses);
   app.require_subcommand(1);
-  app.fallthrough();  // the common options may follow the command
+  app.fallthrough();  // common options may follow the command
   add_common_options(app, line);
   add_status(app, line);
   add_save(app, line);
@@ -115,7 +120,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& request) {  // --help
     return app.exit(request);
   } catch (const CLI::ParseError& error) {
-    complain(std::string(error.what()) + " (see stereo-tap --help)");
+    print_error(std::string(error.what()) + " (see stereo-tap --help)");
     return kFailed;
   }
   StopSignals stop;
@@ -123,13 +128,13 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::tools
 
 int main(int argc, char** argv) {
   try {
-    return stereod::run(argc, argv);
+    return stereod::tools::run(argc, argv);
   } catch (const std::exception& error) {
-    stereod::complain(error.what());
-    return stereod::kFailed;
+    stereod::tools::print_error(error.what());
+    return stereod::tools::kFailed;
   }
 }

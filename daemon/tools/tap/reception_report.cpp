@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/tap/reception_report.h"
 
 #include <algorithm>
@@ -5,10 +6,10 @@
 
 #include "daemon/tools/tap/text_table.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
-/// The smallest of the sorted values that `share` of them do not exceed.
+/// Returns the smallest of the @p sorted values that @p share of them do not exceed.
 double nearest_rank(const std::vector<double>& sorted, double share) {
   const double rank = std::ceil(share * static_cast<double>(sorted.size()));
   return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
@@ -45,22 +46,22 @@ std::vector<std::string> report_lines(const Reception& reception) {
   table.add_row({});
   table.add_row({"latency, ms", "median", "95 %", "max"});
   add_spread(table, "exposure to last row sent", reception.latency_ms);
-  add_spread(table, "exposure to whole frame here", reception.arrival_ms);
+  add_spread(table, "exposure to frame complete", reception.arrival_ms);
 
   std::vector<std::string> lines = table.lines();
   lines.emplace_back();
-  lines.push_back(fixed(reception.fps(), 1) + " frames a second");
+  lines.push_back(fixed(reception.fps(), 1) + " frames/s");
   const auto mention = [&lines](std::int64_t count, const std::string& what) {
     if (count > 0) lines.push_back(std::to_string(count) + " " + what);
   };
-  mention(c.frames_missing, "of the lost frames left no trace at all");
-  mention(c.rows_duplicate, "rows came more than once");
-  mention(c.messages_late, "messages came too late");
-  mention(c.messages_ignored - c.messages_of_another, "messages made no sense and were ignored");
+  mention(c.frames_missing, "of the lost frames: no message arrived");
+  mention(c.rows_duplicate, "duplicate rows");
+  mention(c.messages_late, "late messages");
+  mention(c.messages_ignored - c.messages_of_another, "invalid messages ignored");
   mention(c.messages_of_another,
-          "messages were another stereod's on the same channels: give each its own lcm.prefix");
-  mention(c.restarts, "times the frame numbers began anew: was stereod restarted, or do two share a prefix?");
+          "messages of another stereod on the same channels: give each its own lcm.prefix");
+  mention(c.restarts, "restarts of the frame numbers: stereod was restarted, or two share an lcm.prefix");
   return lines;
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

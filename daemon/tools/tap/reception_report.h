@@ -1,4 +1,5 @@
-// What stereo-tap check found, in numbers and in words.
+// SPDX-License-Identifier: BSD-3-Clause
+// The report of stereo-tap check.
 #pragma once
 
 #include <cstdint>
@@ -7,29 +8,28 @@
 
 #include "daemon/client/stereod_client.h"
 
-namespace stereod {
+namespace stereod::tools {
 
-/// Times of many frames.
+/// Distribution of the times of many frames.
 struct Spread {
   double median = 0;
-  double p95 = 0;  ///< 95 % of them are no longer
+  double p95 = 0;  ///< 95 % of the times are at most this
   double max = 0;
 };
 
-/// Median, 95th percentile (nearest rank) and maximum; zeros if there are none.
+/// Returns median, 95th percentile (nearest rank) and maximum; zeros without values.
 Spread spread_of(std::vector<double> values);
 
-/// Collects while messages arrive.
+/// What was received.
 struct Reception {
   ReceptionCounts counts;
   std::vector<double> arrival_ms;  ///< from the left exposure until the frame was complete here
-  std::vector<double>
-      latency_ms;                ///< from the later exposure until the last row was sent, as the daemon says
-  std::int64_t first_utime = 0;  ///< exposure of the first and last complete frame, µs
+  std::vector<double> latency_ms;  ///< latency_us of the frame summaries
+  std::int64_t first_utime = 0;    ///< left exposure of the first and last complete frame, µs
   std::int64_t last_utime = 0;
-  std::int64_t frames = 0;  ///< complete ones, settled or not
+  std::int64_t frames = 0;  ///< complete frames, settled or not
 
-  /// Frames a second, from the exposure times; 0 if there are fewer than two.
+  /// Returns the frame rate by exposure times [Hz]; 0 for fewer than two frames.
   double fps() const;
   bool anything_arrived() const { return counts.frames_complete + counts.frames_incomplete > 0; }
   bool anything_lost() const {
@@ -38,7 +38,7 @@ struct Reception {
   }
 };
 
-/// The report as lines of text.
+/// Returns the report as lines of text.
 std::vector<std::string> report_lines(const Reception& reception);
 
-}  // namespace stereod
+}  // namespace stereod::tools

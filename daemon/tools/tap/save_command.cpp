@@ -1,4 +1,5 @@
-// stereo-tap save: frames into files.
+// SPDX-License-Identifier: BSD-3-Clause
+// stereo-tap save: writes frames to files.
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -18,37 +19,37 @@
 #include "daemon/tools/tap/text_table.h"
 #include "daemon/visual/disparity_rendering.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 // The daemon sends its camera information once a second.
-constexpr std::chrono::seconds kPatienceForCameraInfo{2};
+constexpr std::chrono::seconds kMaxWaitForCameraInfo{2};
 
-/// How depth follows from disparity; nothing if the message does not say so in numbers that make sense.
+/// Returns the conversion to depth; empty if the message is uncalibrated or invalid.
 std::optional<DepthScale> depth_scale_of(const camera_info_t& info) {
   const std::optional<CameraGeometry> camera = geometry_of(info);
   if (!camera) return std::nullopt;
   return DepthScale{camera->fx * camera->baseline_m, camera->disparity_offset};
 }
 
-/// Waits for the camera information; nothing if there is none, or no calibration.
+/// Waits for the camera information. Returns empty if none arrives or it is uncalibrated.
 std::optional<DepthScale> wait_for_depth_scale(LcmReceiver& receiver, const TapOptions& tap,
                                                StopSignals& stop) {
-  // The subscription stays; what it learns is wanted only here.
-  const auto heard = std::make_shared<std::optional<camera_info_t>>();
-  receiver.subscribe(tap.channel("CAMERA_INFO"), [heard](std::span<const std::byte> bytes) {
+  // Shared, because the subscription outlives this function.
+  const auto received = std::make_shared<std::optional<camera_info_t>>();
+  receiver.subscribe(tap.channel("CAMERA_INFO"), [received](std::span<const std::byte> bytes) {
     camera_info_t info;
-    if (decode_message(bytes, info)) *heard = info;
+    if (decode_message(bytes, info)) *received = info;
   });
-  const Clock::time_point end = Clock::now() + kPatienceForCameraInfo;
-  while (!*heard && Clock::now() < end && !stop.arrived()) receiver.receive(milliseconds(50));
-  return *heard ? depth_scale_of(**heard) : std::nullopt;
+  const Clock::time_point end = Clock::now() + kMaxWaitForCameraInfo;
+  while (!*received && Clock::now() < end && !stop.arrived()) receiver.receive(milliseconds(50));
+  return *received ? depth_scale_of(**received) : std::nullopt;
 }
 
-double valid_share(DisparityView disparity) {
+double measured_share(DisparityView disparity) {
   std::int64_t valid = 0;
   for (int y = 0; y < disparity.height(); ++y) {
     for (int x = 0; x < disparity.width(); ++x) valid += disparity.at(x, y) >= 0 ? 1 : 0;
@@ -56,31 +57,31 @@ double valid_share(DisparityView disparity) {
   return static_cast<double>(valid) / (static_cast<double>(disparity.width()) * disparity.height());
 }
 
-/// Where the pixels are in the rectified image, unless they are all of it from its corner on.
-std::string grid_in_words(const PixelGrid& grid) {
+/// Returns the position of the pixels in the rectified image; empty if they are the whole image.
+std::string describe_grid(const PixelGrid& grid) {
   if (grid == PixelGrid{}) return "";
-  return " (from column " + std::to_string(grid.left) + ", row " + std::to_string(grid.top) + " on, steps " +
+  return " (column " + std::to_string(grid.left) + ", row " + std::to_string(grid.top) + ", decimation " +
          std::to_string(grid.decimation_x) + " x " + std::to_string(grid.decimation_y) + ")";
 }
 
-/// Writes frame-NUMBER.pfm and frame-NUMBER.png and says so.
+/// Writes frame-NUMBER.pfm and frame-NUMBER.png and prints their names.
 void save(const StereoFrame& frame, const std::filesystem::path& directory, std::optional<DepthScale> depth) {
   char name[40];
   std::snprintf(name, sizeof name, "frame-%06lld", static_cast<long long>(frame.frame));
   const std::filesystem::path pfm = directory / (std::string(name) + ".pfm");
   const std::filesystem::path png = directory / (std::string(name) + ".png");
-  DisparityRenderingOptions look;
-  look.depth = depth;
+  DisparityRenderingOptions rendering;
+  rendering.depth = depth;
 
   const DisparityMap& map = frame.disparity;
   const DisparityView disparity(map.row(0), map.width(), map.height(),
                                 map.width() * static_cast<std::ptrdiff_t>(sizeof(std::int16_t)));
   write_disparity_pfm(pfm, disparity, frame.units_per_pixel);
-  const ColorImage picture = draw_disparity(disparity, frame.units_per_pixel, look);
-  write_png(png, picture.view());
-  std::printf("%s and .png: %d x %d%s, %s %% valid, scale in %s\n", pfm.c_str(), disparity.width(),
-              disparity.height(), grid_in_words(frame.grid).c_str(),
-              fixed(100 * valid_share(disparity), 1).c_str(), depth ? "meters" : "pixels");
+  const ColorImage image = draw_disparity(disparity, frame.units_per_pixel, rendering);
+  write_png(png, image.view());
+  std::printf("%s and .png: %d x %d%s, %s %% measured, scale in %s\n", pfm.c_str(), disparity.width(),
+              disparity.height(), describe_grid(frame.grid).c_str(),
+              fixed(100 * measured_share(disparity), 1).c_str(), depth ? "meters" : "pixels");
   std::fflush(stdout);
 }
 
@@ -88,29 +89,28 @@ void make_directory(const std::filesystem::path& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) {
-    throw std::runtime_error("the directory " + directory.string() + " cannot be made: " + error.message() +
-                             ".");
+    throw std::runtime_error("cannot create the directory " + directory.string() + ": " + error.message());
   }
 }
 
-/// How many frames came, whole or not.
+/// Frames that arrived.
 struct Tally {
   int saved = 0;
   int incomplete = 0;
   Clock::time_point latest = Clock::now();
 };
 
-int verdict(const TapOptions& tap, const LcmReceiver& receiver, const SaveOptions& options,
-            const Tally& tally, const ReceptionCounts& counts) {
-  if (counts.messages_of_another > 0) complain(describe_problems(counts));
+int report_result(const TapOptions& tap, const LcmReceiver& receiver, const SaveOptions& options,
+                  const Tally& tally, const ReceptionCounts& counts) {
+  if (counts.messages_of_another > 0) print_error(describe_problems(counts));
   if (tally.incomplete > 0) {
-    complain(std::to_string(tally.incomplete) + " frames arrived incomplete and were not saved.");
-    if (const auto instruction = receive_buffer_advice(kernel_receive_buffer_limit())) complain(*instruction);
+    print_error(std::to_string(tally.incomplete) + " incomplete frames not saved");
+    if (const auto advice = receive_buffer_advice(kernel_receive_buffer_limit())) print_error(*advice);
   }
-  if (tally.saved == options.frames) return counts.messages_of_another > 0 ? kSomethingLost : kAllWell;
-  complain("no whole frame on " + tap.channel("DISPARITY") + " and " + tap.channel("FRAME") + " for " +
-           fixed(options.timeout_s, 1) + " s (" + receiver.url() + "), " + std::to_string(tally.saved) +
-           " of " + std::to_string(options.frames) + " saved; is stereod streaming?");
+  if (tally.saved == options.frames) return counts.messages_of_another > 0 ? kSomethingLost : kSuccess;
+  print_error("no complete frame on " + tap.channel("DISPARITY") + " and " + tap.channel("FRAME") + " for " +
+              fixed(options.timeout_s, 1) + " s (" + receiver.url() + "), " + std::to_string(tally.saved) +
+              " of " + std::to_string(options.frames) + " saved; is stereod streaming?");
   return tally.incomplete > 0 ? kSomethingLost : kNothingArrived;
 }
 
@@ -124,7 +124,7 @@ int run_save(const TapOptions& tap, const SaveOptions& options, StopSignals& sto
   FrameAssembler assembler([&](StereoFrame&& frame) {
     if (tally.saved == options.frames) return;
     if (!frame.complete() || frame.rows_received == 0) {
-      // The first frame heard has usually begun before the listening.
+      // The first frame usually began before the subscription.
       tally.incomplete += tally.saved > 0 ? 1 : 0;
       return;
     }
@@ -134,13 +134,13 @@ int run_save(const TapOptions& tap, const SaveOptions& options, StopSignals& sto
   });
   listen_for_frames(receiver, tap, assembler);
 
-  const auto patience = std::chrono::duration<double>(options.timeout_s);
+  const auto timeout = std::chrono::duration<double>(options.timeout_s);
   tally.latest = Clock::now();
-  while (tally.saved < options.frames && !stop.arrived() && Clock::now() - tally.latest < patience) {
+  while (tally.saved < options.frames && !stop.arrived() && Clock::now() - tally.latest < timeout) {
     receiver.receive(milliseconds(50));
   }
-  return stop.arrived() ? static_cast<int>(kAllWell)
-                        : verdict(tap, receiver, options, tally, assembler.counts());
+  return stop.arrived() ? static_cast<int>(kSuccess)
+                        : report_result(tap, receiver, options, tally, assembler.counts());
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,4 +1,5 @@
-// stereo-tap status: the daemon's state in the terminal.
+// SPDX-License-Identifier: BSD-3-Clause
+// stereo-tap status: shows the status in a terminal.
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -15,20 +16,20 @@
 #include "daemon/tools/tap/tap.h"
 #include "daemon/tools/tap/text_table.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// Longer than this without a status, and the table says so: the daemon sends one a second.
-constexpr double kSilence = 2.5;
+// Without a status for longer, the table says so. The daemon sends one a second.
+constexpr double kMaxSilence_s = 2.5;
 
 double seconds_since(Clock::time_point time) {
   return std::chrono::duration<double>(Clock::now() - time).count();
 }
 
-/// Shows the table: over the old one in a terminal, one after the other elsewhere.
+/// Prints tables: in a terminal each over the previous one, else one after the other.
 class Screen {
  public:
   Screen() : is_terminal_(isatty(STDOUT_FILENO) != 0) {
@@ -42,7 +43,7 @@ class Screen {
       if (shown_) std::puts("");
       for (const std::string& line : lines) std::printf("%s\n", line.c_str());
     } else {
-      // If it does not fit, blank lines go first, then the lowest lines: the state stays on top.
+      // A table that does not fit loses its blank lines, then its last lines: the state stays visible.
       if (lines.size() > terminal_height()) std::erase(lines, "");
       const std::size_t height = std::min(terminal_height(), lines.size());
       std::fputs("\x1b[H", stdout);
@@ -55,7 +56,7 @@ class Screen {
     shown_ = true;
   }
 
-  /// Leaves the cursor below what was shown.
+  /// Moves the cursor below the table.
   void leave() {
     if (is_terminal_) std::puts("");
   }
@@ -70,7 +71,7 @@ class Screen {
   bool shown_ = false;
 };
 
-/// The latest status that could be decoded, and when it came.
+/// The latest status and its arrival.
 struct Latest {
   std::optional<status_t> status;
   Clock::time_point when = Clock::now();
@@ -93,12 +94,12 @@ int show_once(const TapOptions& tap, LcmReceiver& receiver, const Latest& latest
   while (!latest.status && seconds_since(begin) < timeout_s && !stop.arrived())
     receiver.receive(milliseconds(50));
   if (!latest.status) {
-    complain("no status on " + tap.channel("STATUS") + " within " + fixed(timeout_s, 1) + " s (" +
-             receiver.url() + "); is stereod running?");
+    print_error("no status on " + tap.channel("STATUS") + " within " + fixed(timeout_s, 1) + " s (" +
+                receiver.url() + "); is stereod running?");
     return kNothingArrived;
   }
   for (const std::string& line : status_lines(*latest.status)) std::printf("%s\n", line.c_str());
-  return kAllWell;
+  return kSuccess;
 }
 
 int show_live(const TapOptions& tap, LcmReceiver& receiver, Latest& latest, StopSignals& stop) {
@@ -106,25 +107,25 @@ int show_live(const TapOptions& tap, LcmReceiver& receiver, Latest& latest, Stop
   if (screen.is_terminal()) {
     screen.show({"waiting for " + tap.channel("STATUS") + " on " + receiver.url() + " (Ctrl-C ends)"});
   } else {
-    complain("waiting for " + tap.channel("STATUS") + " on " + receiver.url());
+    print_error("waiting for " + tap.channel("STATUS") + " on " + receiver.url());
   }
   bool silent = false;
   while (!stop.arrived()) {
     receiver.receive(milliseconds(100));
     if (!latest.status) continue;
-    const bool now_silent = seconds_since(latest.when) > kSilence;
+    const bool now_silent = seconds_since(latest.when) > kMaxSilence_s;
     if (!latest.fresh && !(now_silent && (screen.is_terminal() || !silent))) continue;
     silent = now_silent;
     std::vector<std::string> lines = status_lines(*latest.status);
     if (silent) {
       const std::string age = duration_in_words(seconds_since(latest.when));
-      lines.insert(lines.begin(), "NO STATUS FOR " + age + "; what follows is the last one.");
+      lines.insert(lines.begin(), "NO STATUS FOR " + age + "; the last status was:");
     }
     screen.show(std::move(lines));
     latest.fresh = false;
   }
   screen.leave();
-  return kAllWell;
+  return kSuccess;
 }
 
 }  // namespace
@@ -137,4 +138,4 @@ int run_status(const TapOptions& tap, const StatusOptions& options, StopSignals&
   return show_live(tap, receiver, latest, stop);
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

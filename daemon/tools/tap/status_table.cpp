@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/tap/status_table.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 #include "daemon/tools/tap/text_table.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 using Align = TextTable::Align;
@@ -17,7 +18,7 @@ constexpr std::size_t kLabelWidth = 16;
 constexpr std::size_t kCameraWidth = 29;  // two of them and the labels make 78 columns
 constexpr std::size_t kTextWidth = 60;
 
-/// Local time of day of a time in µs since the Unix epoch.
+/// Returns the local time of day of @p utime [µs since the Unix epoch].
 std::string time_of_day(std::int64_t utime) {
   const std::time_t seconds = static_cast<std::time_t>(utime / 1000000);
   std::tm local{};
@@ -27,16 +28,16 @@ std::string time_of_day(std::int64_t utime) {
   return text;
 }
 
-/// What the network sent, or a dash if that is nothing.
+/// Returns text from the network, made printable; a dash for an empty text.
 std::string or_dash(const std::string& text) { return text.empty() ? "-" : printable(text); }
 
 std::string number(std::int64_t value) { return std::to_string(value); }
 
 std::string frames(const camera_status_t& camera) {
-  return number(camera.frames) + ", " + fixed(camera.fps, 1) + " /s now";
+  return number(camera.frames) + ", " + fixed(camera.fps, 1) + " /s";
 }
 
-std::string phase(const status_t& s) {
+std::string synchronization(const status_t& s) {
   if (s.sync_state.empty()) return "-";
   return printable(s.sync_state) + ", skew " + fixed(s.sync_skew_ms, 2) + " ms, " + number(s.sync_restarts) +
          " restarts";
@@ -46,10 +47,10 @@ Lines head(const status_t& s) {
   TextTable table({{.min_width = kLabelWidth}, {.max_width = kTextWidth}});
   table.add_row({"state", or_dash(s.state)});
   table.add_row({"reason", or_dash(s.reason)});
-  table.add_row({"phase alignment", phase(s)});
+  table.add_row({"synchronization", synchronization(s)});
   table.add_row({"matcher", or_dash(s.matcher)});
   table.add_row({"program", "stereod " + or_dash(s.version) + ", up " + duration_in_words(s.uptime_s) +
-                                ", said at " + time_of_day(s.utime)});
+                                ", status of " + time_of_day(s.utime)});
   return table.lines();
 }
 
@@ -74,7 +75,7 @@ Lines cameras(const camera_status_t& l, const camera_status_t& r, std::int64_t n
   table.add_row({"  sequence gaps", number(l.sequence_gaps), number(r.sequence_gaps)});
   table.add_row({"  decode errors", number(l.decode_errors), number(r.decode_errors)});
   table.add_row({"  incomplete", number(l.frames_incomplete), number(r.frames_incomplete)});
-  table.add_row({"  bad stamps", number(l.frames_bad_timestamp), number(r.frames_bad_timestamp)});
+  table.add_row({"  bad timestamps", number(l.frames_bad_timestamp), number(r.frames_bad_timestamp)});
   table.add_row({"  superseded", number(l.frames_superseded), number(r.frames_superseded)});
   table.add_row({"  reconnects", number(l.reconnects), number(r.reconnects)});
   return table.lines();
@@ -91,13 +92,24 @@ Lines times(const status_t& s) {
   return table.lines();
 }
 
+void add_if_known(TextTable& table, const std::string& label, bool is_known, const std::string& value,
+                  const std::string& unit) {
+  if (is_known) {
+    table.add_row({label, value, unit});
+  } else {
+    table.add_row({label, "not known"});
+  }
+}
+
 Lines load(const status_t& s) {
   TextTable table({{.min_width = 16}, {.align = Align::kRight, .min_width = 7}, {}});
   table.add_row({"frames in", fixed(s.fps_in, 1), "/s"});
-  table.add_row({"frames out", fixed(s.fps_out, 1), "/s"});
-  table.add_row({"valid pixels", fixed(100 * s.measured_fraction, 1), "%"});
-  const bool known = s.epipolar_points > 0;
-  table.add_row({"rows apart", known ? fixed(s.epipolar_error_px, 2) : "-", "px"});
+  table.add_row({"frames out", fixed(s.fps_out, 1), s.paced != 0 ? "/s, paced" : "/s"});
+  table.add_row({"measured", fixed(100 * s.measured_fraction, 1), "%"});
+  table.add_row({"filled", fixed(100 * s.filled_fraction, 1), "%"});
+  add_if_known(table, "no evidence", s.no_evidence_fraction >= 0, fixed(100 * s.no_evidence_fraction, 1),
+               "%");
+  add_if_known(table, "epipolar error", s.epipolar_points > 0, fixed(s.epipolar_error_px, 2), "px");
   table.add_row({"CPU", fixed(s.cpu_percent, 1), "%"});
   table.add_row({"memory", fixed(s.rss_mb, 1), "MB"});
   return table.lines();
@@ -111,14 +123,14 @@ Lines counts(const status_t& s) {
                  number(s.pairs_dropped_superseded)});
   table.add_row({"  frames published", number(s.frames_published), "", "  no partner near in time",
                  number(s.frames_dropped_no_partner)});
-  table.add_row({"  network refusals", number(s.publish_errors), "", "  camera clock went back",
-                 number(s.frames_dropped_time_jump)});
+  table.add_row(
+      {"  publish errors", number(s.publish_errors), "", "  time jump", number(s.frames_dropped_time_jump)});
   return table.lines();
 }
 
 void append(Lines& to, const Lines& more) { to.insert(to.end(), more.begin(), more.end()); }
 
-/// Two tables next to each other.
+/// Joins two tables side by side.
 Lines beside(const Lines& left, const Lines& right) {
   TextTable table({{.min_width = kLabelWidth + kCameraWidth + 2}, {}});
   for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
@@ -156,4 +168,4 @@ std::string duration_in_words(double seconds) {
   return text;
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,4 +1,5 @@
-// The daemon's status as a person reads it.
+// SPDX-License-Identifier: BSD-3-Clause
+// Shows a status in a terminal.
 #pragma once
 
 #include <string>
@@ -6,13 +7,13 @@
 
 #include "stereod/status_t.hpp"
 
-namespace stereod {
+namespace stereod::tools {
 
-/// Every field of the status as lines of at most about 80 columns: state and reason first, the cameras side
-/// by side, then times, load and counts.
+/// Returns every field of the status as lines of at most 80 columns: state and reason, the cameras side by side, times, load,
+/// counts.
 std::vector<std::string> status_lines(const status_t& status);
 
-/// A length of time like "3 d 04 h", "1 h 02 min", "2 min 05 s" or "7 s".
+/// Returns a duration like "3 d 04 h", "1 h 02 min", "2 min 05 s" or "7 s"; "-" if it is negative or not finite.
 std::string duration_in_words(double seconds);
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/tap/tap.h"
 
 #include <cstdio>
 
-namespace stereod {
+namespace stereod::tools {
 
-void complain(const std::string& sentence) { std::fprintf(stderr, "stereo-tap: %s\n", sentence.c_str()); }
+void print_error(const std::string& message) { std::fprintf(stderr, "stereo-tap: %s\n", message.c_str()); }
 
-}  // namespace stereod
+}  // namespace stereod::tools

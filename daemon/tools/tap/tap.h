@@ -1,4 +1,5 @@
-// What the commands of stereo-tap share.
+// SPDX-License-Identifier: BSD-3-Clause
+// Declarations that the commands of stereo-tap share.
 #pragma once
 
 #include "daemon/base/stop_signals.h"
@@ -6,21 +7,21 @@
 #include <filesystem>
 #include <string>
 
-namespace stereod {
+namespace stereod::tools {
 
-/// Options that come before or after any command.
+/// Options of every command.
 struct TapOptions {
   std::string lcm_url;  ///< empty: LCM's default
   std::string prefix = "STEREO";
 
-  /// The channel of this daemon with that ending, for example STEREO_STATUS.
-  std::string channel(const std::string& ending) const { return prefix + "_" + ending; }
+  /// Returns a channel of this daemon, for example STEREO_STATUS for "STATUS".
+  std::string channel(const std::string& suffix) const { return prefix + "_" + suffix; }
 };
 
-/// What stereo-tap ends with.
+/// Exit status of stereo-tap.
 enum ExitStatus : int {
-  kAllWell = 0,
-  kFailed = 1,  ///< wrong usage, no network, a file that cannot be written
+  kSuccess = 0,
+  kFailed = 1,  ///< wrong usage, no network, or a file that cannot be written
   kNothingArrived = 2,
   kSomethingLost = 3,
 };
@@ -32,29 +33,29 @@ struct StatusOptions {
 struct SaveOptions {
   int frames = 1;
   std::filesystem::path directory;
-  double timeout_s = 10;  ///< how long nothing may arrive
+  double timeout_s = 10;  ///< without a complete frame
 };
 struct CheckOptions {
   double seconds = 5;
 };
 struct RecordOptions {
   std::filesystem::path file;
-  double seconds = 0;  ///< 0: until a signal comes
+  double seconds = 0;  ///< 0: until a signal arrives
 };
 struct PlayOptions {
   std::filesystem::path file;
-  double speed = 1;        ///< > 0; 2 is twice as fast
-  bool list_only = false;  ///< say what is in it, send nothing
+  double speed = 1;        ///< factor > 0; 2: twice as fast
+  bool list_only = false;  ///< print the content, publish nothing
 };
 
-/// The commands. Each returns an ExitStatus; they throw std::runtime_error with one sentence.
+/// Run a command until it is done or @p stop has arrived. Return an ExitStatus. Throw std::runtime_error.
 int run_status(const TapOptions& tap, const StatusOptions& options, StopSignals& stop);
 int run_save(const TapOptions& tap, const SaveOptions& options, StopSignals& stop);
 int run_check(const TapOptions& tap, const CheckOptions& options, StopSignals& stop);
 int run_record(const TapOptions& tap, const RecordOptions& options, StopSignals& stop);
 int run_play(const TapOptions& tap, const PlayOptions& options, StopSignals& stop);
 
-/// One line on stderr, after the program's name.
-void complain(const std::string& sentence);
+/// Prints the program's name and @p message to stderr.
+void print_error(const std::string& message);
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/tap/text_table.h"
 
 #include <algorithm>
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 std::string padded(const std::string& text, std::size_t width, TextTable::Align align) {
@@ -45,4 +46,4 @@ std::vector<std::string> TextTable::lines() const {
   return result;
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

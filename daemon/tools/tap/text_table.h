@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Text in columns for the terminal.
 #pragma once
 
@@ -7,7 +8,7 @@
 
 #include "daemon/base/text.h"
 
-namespace stereod {
+namespace stereod::tools {
 
 /// Rows of cells, each column as wide as its widest cell, two spaces between. Cells are wrapped at a column's
 /// greatest width.
@@ -33,4 +34,4 @@ class TextTable {
   std::vector<std::vector<std::vector<std::string>>> rows_;  // row, column, line in the cell
 };
 
-}  // namespace stereod
+}  // namespace stereod::tools

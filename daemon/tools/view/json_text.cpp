@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/view/json_text.h"
 
 #include <array>
@@ -7,7 +8,7 @@
 
 #include "daemon/base/text.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 std::string quoted(std::string_view text) {
@@ -52,4 +53,4 @@ JsonObject& JsonObject::add(std::string_view name, const std::vector<float>& num
   return add_raw(name, list + "]");
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

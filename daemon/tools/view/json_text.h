@@ -1,4 +1,5 @@
-// JSON, written.
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes JSON.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-namespace stereod {
+namespace stereod::tools {
 
-/// One JSON object under construction. Names are plain; texts may be anything that came over the network.
+/// Builds one JSON object. Names must not need escaping; texts may come from the network.
 class JsonObject {
  public:
   JsonObject& add(std::string_view name, std::string_view text);
@@ -17,7 +18,7 @@ class JsonObject {
   JsonObject& add(std::string_view name, std::int64_t number);
   JsonObject& add(std::string_view name, int number) { return add(name, std::int64_t{number}); }
   JsonObject& add(std::string_view name, bool value) { return add_raw(name, value ? "true" : "false"); }
-  /// With as many digits as bring back the same number; null if it is not finite.
+  /// Adds the shortest text that reads back as the same number; null if it is not finite.
   JsonObject& add(std::string_view name, double number);
   JsonObject& add(std::string_view name, const std::vector<float>& numbers);
   JsonObject& add(std::string_view name, const JsonObject& object) { return add_raw(name, object.text()); }
@@ -30,4 +31,4 @@ class JsonObject {
   std::string body_;
 };
 
-}  // namespace stereod
+}  // namespace stereod::tools

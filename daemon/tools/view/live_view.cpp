@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/view/live_view.h"
 
 #include <algorithm>
@@ -9,38 +10,38 @@
 #include "daemon/lcm/limits.h"
 #include "daemon/lcm/pixel_format_codes.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kQuiet{1};  // without frames for so long, the status alone is worth showing
+constexpr std::chrono::seconds kMaxFrameGap{1};  // after it a status alone makes a snapshot
 
-// What belongs to a frame so much older or newer is not shown with it: it has ceased to come. Left images may
-// be 10 s apart.
-constexpr std::int64_t kScanUs = 2'000'000;
-constexpr std::int64_t kLeftUs = 12'000'000;
+// A scan or left image further in time from the frame is not shown with it: the daemon has stopped sending them. Left
+// images may be 10 s apart.
+constexpr std::int64_t kMaxScanDistance_us = 2'000'000;
+constexpr std::int64_t kMaxLeftDistance_us = 12'000'000;
 
-bool is_near(std::int64_t utime, std::int64_t other, std::int64_t us) {
-  std::int64_t apart = 0;
-  if (__builtin_sub_overflow(utime, other, &apart)) return false;  // whatever the network sends
-  return apart > -us && apart < us;
+bool is_near(std::int64_t utime, std::int64_t other, std::int64_t limit_us) {
+  std::int64_t difference = 0;
+  if (__builtin_sub_overflow(utime, other, &difference)) return false;  // any value may arrive
+  return difference > -limit_us && difference < limit_us;
 }
 
-// As the daemon makes them; a page that draws anything else would be busy for long.
+// The limits of what the daemon sends; a larger scan would keep the page busy.
 bool is_valid(const planar_lidar_t& scan) {
   constexpr std::size_t kMaxRays = 1024;
-  constexpr float kFarthest = 1000;  // m
+  constexpr float kMaxRange = 1000;  // m
   return scan.ranges.size() <= kMaxRays && scan.intensities.size() == scan.ranges.size() &&
          std::isfinite(scan.rad0) && std::isfinite(scan.radstep) &&
          std::all_of(scan.ranges.begin(), scan.ranges.end(),
-                     [](float r) { return r >= 0 && r <= kFarthest; });
+                     [](float r) { return r >= 0 && r <= kMaxRange; });
 }
 
 std::vector<std::uint8_t> jpeg_of(const image_t& image) {
-  const bool sane =
+  const bool is_size_valid =
       image.width > 0 && image.width <= kMaxImageSide && image.height > 0 && image.height <= kMaxImageSide;
-  if (!sane) return {};
+  if (!is_size_valid) return {};
   if (image.pixelformat == kPixelFormatMjpeg) return image.data;
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   if (image.pixelformat != kPixelFormatGray || image.row_stride != image.width || image.data.size() != pixels)
@@ -55,7 +56,7 @@ std::vector<std::uint8_t> jpeg_of(const image_t& image) {
 void LiveView::take(StereoFrame&& frame, const ReceptionCounts& counts) {
   const std::lock_guard lock(mutex_);
   counts_ = counts;
-  frame_came_ = Clock::now();
+  frame_arrival_ = Clock::now();
   publish_locked(std::move(frame));
 }
 
@@ -68,8 +69,8 @@ void LiveView::take(planar_lidar_t&& scan) {
 void LiveView::take(status_t&& status) {
   const std::lock_guard lock(mutex_);
   status_ = std::move(status);
-  status_came_ = Clock::now();
-  if (status_came_ - frame_came_ > kQuiet) publish_locked(std::nullopt);
+  status_arrival_ = Clock::now();
+  if (status_arrival_ - frame_arrival_ > kMaxFrameGap) publish_locked(std::nullopt);
 }
 
 void LiveView::take(const image_t& left) {
@@ -85,11 +86,11 @@ void LiveView::publish_locked(std::optional<StereoFrame>&& frame) {
   snapshot->number = ++number_;
   snapshot->frame = std::move(frame);
   const auto& shown = snapshot->frame;
-  if (shown && scan_ && is_near(scan_->utime, shown->utime, kScanUs)) snapshot->scan = scan_;
+  if (shown && scan_ && is_near(scan_->utime, shown->utime, kMaxScanDistance_us)) snapshot->scan = scan_;
   snapshot->status = status_;
   snapshot->status_age_ms =
-      std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - status_came_).count();
-  if (shown && is_near(left_utime_, shown->utime, kLeftUs)) {
+      std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - status_arrival_).count();
+  if (shown && is_near(left_utime_, shown->utime, kMaxLeftDistance_us)) {
     snapshot->left_jpeg = left_jpeg_;
     snapshot->left_utime = left_utime_;
   }
@@ -99,10 +100,10 @@ void LiveView::publish_locked(std::optional<StereoFrame>&& frame) {
 }
 
 std::shared_ptr<const Snapshot> LiveView::wait_newer(std::int64_t after,
-                                                     std::chrono::milliseconds patience) const {
+                                                     std::chrono::milliseconds max_wait) const {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, patience, [&] { return newest_ && newest_->number > after; });
+  changed_.wait_for(lock, max_wait, [&] { return newest_ && newest_->number > after; });
   return newest_;
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,4 +1,5 @@
-// The latest of everything that stereod publishes, for the page to show.
+// SPDX-License-Identifier: BSD-3-Clause
+// Holds the latest of everything that stereod publishes, for the page.
 #pragma once
 
 #include <chrono>
@@ -15,35 +16,35 @@
 #include "stereod/planar_lidar_t.hpp"
 #include "stereod/status_t.hpp"
 
-namespace stereod {
+namespace stereod::tools {
 
-/// A frame and what was known when it came. Never changed once it can be seen by several threads.
+/// A frame and what was known when it arrived. Immutable once several threads can see it.
 struct Snapshot {
-  std::int64_t number = 0;  ///< counts up from 1 with everything new; not the frame's
+  std::int64_t number = 0;  ///< from 1, +1 for each snapshot; independent of the frame number
   std::optional<StereoFrame> frame;
-  std::optional<planar_lidar_t> scan;  ///< and left image: none if the newest is too far from the frame
+  std::optional<planar_lidar_t> scan;  ///< empty if the latest scan is more than 2 s from the frame
   std::optional<status_t> status;
   std::int64_t status_age_ms = 0;
-  std::vector<std::uint8_t> left_jpeg;  ///< the newest left image; empty: none
-  std::int64_t left_utime = 0;          ///< of which frame it is
+  std::vector<std::uint8_t> left_jpeg;  ///< empty if the latest left image is more than 12 s from the frame
+  std::int64_t left_utime = 0;          ///< frame of the left image
   ReceptionCounts counts;
 };
 
-/// One thread puts messages in, any number take moments out.
+/// Makes snapshots of the messages. One thread calls take(), any number of threads call wait_newer().
 class LiveView {
  public:
-  /// What arrives; a frame makes a new moment of all that was there before it.
+  /// Makes a snapshot of the frame and what arrived before.
   void take(StereoFrame&& frame, const ReceptionCounts& counts);
-  /// One that the daemon cannot have made is passed over.
+  /// Keeps a scan. Ignores one that the daemon cannot have sent.
   void take(planar_lidar_t&& scan);
-  /// Without frames (no cameras, say) a status makes a moment, too.
+  /// Keeps a status. Makes a snapshot if no frame has arrived for 1 s, as without cameras.
   void take(status_t&& status);
-  /// Only 8-bit gray and JPEG of a sane size; anything else is passed over.
+  /// Keeps a left image in 8-bit gray or JPEG with sides of at most kMaxImageSide. Ignores others.
   void take(const image_t& left);
 
-  /// The newest moment once its number is greater than `after`, or after `patience` whatever there is; null
-  /// if nothing ever came.
-  std::shared_ptr<const Snapshot> wait_newer(std::int64_t after, std::chrono::milliseconds patience) const;
+  /// Blocks until there is a snapshot with a number greater than @p after, but at most @p max_wait. Returns the newest
+  /// snapshot; null if there is none.
+  std::shared_ptr<const Snapshot> wait_newer(std::int64_t after, std::chrono::milliseconds max_wait) const;
 
  private:
   void publish_locked(std::optional<StereoFrame>&& frame);
@@ -55,14 +56,9 @@ class LiveView {
   ReceptionCounts counts_;
   std::optional<planar_lidar_t> scan_;
   std::optional<status_t> status_;
-  std::chrono::steady_clock::time_point status_came_, frame_came_;
+  std::chrono::steady_clock::time_point status_arrival_, frame_arrival_;
   std::vector<std::uint8_t> left_jpeg_;
   std::int64_t left_utime_ = 0;
 };
 
-/// A moment as the page fetches it: the length of the JSON (4 bytes, little-endian), the JSON, the
-/// disparities of every `step`-th row and column (packed as snapshot_codec.cpp says, compressed by zlib), the
-/// left image as JPEG. The JSON says how long the last two are.
-std::string encoded_moment(const Snapshot& snapshot, int step);
-
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,12 +1,14 @@
-// A moment on its way to the page.
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/tools/view/snapshot_codec.h"
+
 #include <zlib.h>
 
 #include <cstdint>
+#include <limits>
 
 #include "daemon/tools/view/json_text.h"
-#include "daemon/tools/view/live_view.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 JsonObject json_of(const camera_status_t& c) {
@@ -20,6 +22,11 @@ JsonObject json_of(const camera_status_t& c) {
   return json;
 }
 
+/// Returns @p value if it is known, else NaN, which JSON shows as null.
+double known_or_nan(bool is_known, double value) {
+  return is_known ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
 JsonObject json_of(const status_t& s, std::int64_t age_ms) {
   JsonObject json;
   json.add("age_ms", age_ms).add("state", s.state).add("reason", s.reason).add("version", s.version);
@@ -31,6 +38,13 @@ JsonObject json_of(const status_t& s, std::int64_t age_ms) {
   json.add("dropped_superseded", s.pairs_dropped_superseded);
   json.add("dropped_no_partner", s.frames_dropped_no_partner);
   json.add("dropped_time_jump", s.frames_dropped_time_jump).add("publish_errors", s.publish_errors);
+  json.add("measured_fraction", s.measured_fraction).add("filled_fraction", s.filled_fraction);
+  json.add("no_evidence_fraction", known_or_nan(s.no_evidence_fraction >= 0, s.no_evidence_fraction));
+  json.add("epipolar_error_px", known_or_nan(s.epipolar_points > 0, s.epipolar_error_px));
+  json.add("sync_state", s.sync_state)
+      .add("sync_skew_ms", s.sync_skew_ms)
+      .add("sync_restarts", s.sync_restarts);
+  json.add("paced", s.paced != 0);
   json.add("skew_ms_median", s.skew_ms_median).add("latency_ms_median", s.latency_ms_median);
   json.add("latency_ms_p95", s.latency_ms_p95).add("match_ms_median", s.match_ms_median);
   json.add("cpu_percent", s.cpu_percent).add("rss_mb", s.rss_mb);
@@ -48,6 +62,9 @@ JsonObject json_of(const planar_lidar_t& scan) {
 JsonObject json_of(const frame_t& f) {
   JsonObject json;
   json.add("measured_fraction", static_cast<double>(f.measured_fraction)).add("skew_us", f.skew_us);
+  json.add("filled_fraction", static_cast<double>(f.filled_fraction));
+  json.add("no_evidence_fraction",
+           known_or_nan(f.no_evidence_fraction >= 0, static_cast<double>(f.no_evidence_fraction)));
   json.add("left_sequence", f.left_sequence).add("right_sequence", f.right_sequence);
   json.add("capture_to_start_us", f.capture_to_start_us).add("rectify_us", f.rectify_us);
   json.add("match_us", f.match_us).add("filter_us", f.filter_us).add("publish_us", f.publish_us);
@@ -87,9 +104,9 @@ JsonObject json_of(const StereoFrame& frame, int step) {
   return json;
 }
 
-// Differences to the value above, folded so that small ones of either sign are small numbers (0, −1, 1, −2,
-// …); the low bytes of all, then the high ones: a third of what the values themselves compress to, in half
-// the time.
+/// Packs and compresses disparities. Each value becomes its difference to the value above it, folded so that small
+/// differences of either sign are small numbers (0, −1, 1, −2 … become 0, 1, 2, 3 …). All low bytes precede all high bytes.
+/// Compresses to a third of the size of the plain values, in half the time.
 std::string compressed_disparity(const DisparityMap& map, int step) {
   const std::size_t columns = (static_cast<std::size_t>(map.width()) + step - 1) / step;
   const std::size_t rows = (static_cast<std::size_t>(map.height()) + step - 1) / step;
@@ -113,7 +130,7 @@ std::string compressed_disparity(const DisparityMap& map, int step) {
 
 }  // namespace
 
-std::string encoded_moment(const Snapshot& snapshot, int step) {
+std::string encode_snapshot(const Snapshot& snapshot, int step) {
   std::string disparity;
   JsonObject json;
   json.add("number", snapshot.number);
@@ -135,4 +152,4 @@ std::string encoded_moment(const Snapshot& snapshot, int step) {
   return out;
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

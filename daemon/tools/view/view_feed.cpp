@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/view/view_feed.h"
 
 #include <span>
@@ -5,12 +6,12 @@
 
 #include "daemon/lcm/message_decoder.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
-StereoClient::Options client_options(const LcmReceiver& opened, const std::string& prefix) {
+StereoClient::Options client_options(const LcmReceiver& receiver, const std::string& prefix) {
   StereoClient::Options options;
-  options.url = opened.url();
+  options.url = receiver.url();
   options.prefix = prefix;
   return options;
 }
@@ -20,7 +21,7 @@ StereoClient::Options client_options(const LcmReceiver& opened, const std::strin
 ViewFeed::ViewFeed(const std::string& lcm_url, const std::string& prefix, LiveView& view)
     : others_(lcm_url), frames_(client_options(others_, prefix)) {
   frames_.on_frame([this, &view](StereoFrame&& frame) {
-    take_others();  // its scan was sent before its end
+    receive_others();  // the scan of the frame was sent before its summary
     view.take(std::move(frame), frames_.counts());
   });
   others_.subscribe(prefix + "_STATUS", [&view](std::span<const std::byte> bytes) {
@@ -37,15 +38,15 @@ ViewFeed::ViewFeed(const std::string& lcm_url, const std::string& prefix, LiveVi
   });
 }
 
-void ViewFeed::take_others() {
-  constexpr int kMax = 100;  // messages, so that frames have their turn
-  for (int i = 0; i < kMax && others_.receive(std::chrono::milliseconds(0)); ++i) {
+void ViewFeed::receive_others() {
+  constexpr int kMaxMessages = 100;  // then frames are handled
+  for (int i = 0; i < kMaxMessages && others_.receive(std::chrono::milliseconds(0)); ++i) {
   }
 }
 
 void ViewFeed::run_once() {
-  take_others();
+  receive_others();
   frames_.handle(20);
 }
 
-}  // namespace stereod
+}  // namespace stereod::tools

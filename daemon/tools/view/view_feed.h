@@ -1,4 +1,5 @@
-// From LCM to the live view.
+// SPDX-License-Identifier: BSD-3-Clause
+// Feeds what arrives over LCM to the live view.
 #pragma once
 
 #include <string>
@@ -6,22 +7,22 @@
 #include "daemon/lcm/receiver.h"
 #include "daemon/tools/view/live_view.h"
 
-namespace stereod {
+namespace stereod::tools {
 
 /// Subscribes to one daemon.
 class ViewFeed {
  public:
-  /// `view` outlives it. Throws BusError or std::runtime_error with a sentence.
+  /// @p view must outlive the feed. Throws BusError or std::runtime_error.
   ViewFeed(const std::string& lcm_url, const std::string& prefix, LiveView& view);
 
-  /// Handles what has come, for about 20 ms.
+  /// Handles messages for about 20 ms.
   void run_once();
 
  private:
-  void take_others();
+  void receive_others();
 
-  LcmReceiver others_;  // opened first: its complaints are the better ones
+  LcmReceiver others_;  // status, scan, left image; the first member, because its errors name the remedy
   StereoClient frames_;
 };
 
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,4 +1,5 @@
-// The page on this machine.
+// SPDX-License-Identifier: BSD-3-Clause
+// Serves the page of stereo-view.
 #pragma once
 
 #include <memory>
@@ -7,18 +8,17 @@
 
 #include "daemon/tools/view/live_view.h"
 
-namespace stereod {
+namespace stereod::tools {
 
 struct ViewServerOptions {
-  int port = 8091;  ///< 0: any free one
-  std::vector<std::string>
-      allowed_hosts;  ///< names by which the page may be asked for, besides this machine's
+  int port = 8091;                         ///< 0: any free port
+  std::vector<std::string> allowed_hosts;  ///< as in LocalServerOptions
 };
 
-/// Serves on 127.0.0.1 only, and only what may_be_served(). Over ssh: ssh -L 8091:127.0.0.1:8091 robot.
+/// Serves the page and the snapshots of a LiveView on 127.0.0.1, with the protection of LocalServer.
 class ViewServer {
  public:
-  /// `view` outlives it. Throws std::runtime_error if the port is taken.
+  /// Starts serving. @p view must outlive the server. Throws PortTakenError.
   ViewServer(const LiveView& view, const ViewServerOptions& options);
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;
@@ -27,8 +27,8 @@ class ViewServer {
   int port() const;
 
  private:
-  struct Server;
-  std::unique_ptr<Server> server_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace stereod
+}  // namespace stereod::tools

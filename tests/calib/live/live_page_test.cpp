@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "calib/live/live_page.h"
 
 #include <gmock/gmock.h>
@@ -11,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(LivePage, ShowsTheLatestMomentToThisMachineOnly) {
+TEST(LivePage, Snapshot_ServedToThisMachineOnly) {
   LivePage page(0);
   httplib::Client client("127.0.0.1", page.port());
   EXPECT_EQ(client.Get("/state")->body, "{}");
@@ -19,19 +20,22 @@ TEST(LivePage, ShowsTheLatestMomentToThisMachineOnly) {
   snapshot.image = {64, 48};
   snapshot.words = "hold still";
   snapshot.taken = 3, snapshot.wanted = 15;
-  const GrayImage picture(64, 48);
-  page.show(snapshot, picture.view(), picture.view());
+  const GrayImage image(64, 48);
+  page.show(snapshot, image.view(), image.view());
   EXPECT_THAT(client.Get("/state")->body, HasSubstr("\"words\":\"hold still\",\"taken\":3"));
   EXPECT_EQ(client.Get("/left.jpg")->body.substr(0, 2), "\xff\xd8");
   EXPECT_EQ(client.Get("/right.jpg")->get_header_value("Content-Type"), "image/jpeg");
   EXPECT_THAT(client.Get("/")->body, HasSubstr("<title>Calibrating</title>"));
   EXPECT_EQ(client.Get("/etc/passwd")->status, 404);
-  // A page of another name that was made to lead here.
+  // A page of another name that leads here (DNS rebinding), and a page of another origin.
+  EXPECT_EQ(client.Get("/left.jpg", {{"Origin", "http://example.org"}})->status, 403);
+  EXPECT_EQ(client.Get("/live.js")->status, 200);
+  EXPECT_THAT(client.Get("/")->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'none'"));
   EXPECT_EQ(client.Get("/left.jpg", {{"Host", "example.org"}})->status, 403);
   EXPECT_EQ(client.Get("/left.jpg", {{"Host", "localhost:80"}})->status, 200);
 }
 
-TEST(LivePage, SaysThatAPortIsTaken) {
+TEST(LivePage, PortTaken_Throws) {
   LivePage page(0);
   try {
     LivePage second(page.port());

@@ -82,9 +82,9 @@ StereoFrame published_frame(const Calibration& calibration, const TemporaryDirec
     if (!whole && frame.complete()) whole = std::move(frame);
   });
   LcmReceiver receiver(kUrl);
-  TapOptions tap;
+  tools::TapOptions tap;
   tap.prefix = "DEPTH";
-  listen_for_frames(receiver, tap, assembler);
+  tools::listen_for_frames(receiver, tap, assembler);
   ChildProgram daemon(std::filesystem::path(STEREOD_BIN_DIR) / "stereod",
                       {"--config", (directory / "config.yaml").string()}, directory.path());
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);

@@ -1,5 +1,5 @@
-// What the client library makes of good messages, and of bad ones; how frames are put together is
-// frame_assembler_test.cpp's.
+// SPDX-License-Identifier: BSD-3-Clause
+// The client library with valid and invalid messages. frame_assembler_test.cpp tests the assembly of frames.
 #include "daemon/client/stereod_client.h"
 
 #include <gtest/gtest.h>
@@ -24,9 +24,9 @@ std::vector<std::uint8_t> encoded(const Message& message) {
   return bytes;
 }
 
-class ClientTest : public testing::Test {
+class Client : public testing::Test {
  protected:
-  ClientTest() {
+  Client() {
     client_->on_frame([this](StereoFrame&& frame) { frames_.push_back(std::move(frame)); });
   }
 
@@ -51,7 +51,7 @@ class ClientTest : public testing::Test {
   std::vector<StereoFrame> frames_;
 };
 
-TEST_F(ClientTest, GivesDisparityDepthAndPoints) {
+TEST_F(Client, CompleteFrame_GivesDisparityDepthAndPoints) {
   camera_info_t info = camera_info_of();
   info.disparity_offset = 2;
   take(info);
@@ -85,7 +85,7 @@ TEST_F(ClientTest, GivesDisparityDepthAndPoints) {
   EXPECT_LT(frame.points(3).size(), valid / 4);
 }
 
-TEST_F(ClientTest, FindsThePixelsOfARegionInTheRectifiedImage) {
+TEST_F(Client, DecimatedRegion_MapsToRectifiedPixels) {
   take(camera_info_of());
   for (Message message : messages_of(1)) {
     if (auto* rows = std::get_if<disparity_rows_t>(&message)) {
@@ -100,12 +100,13 @@ TEST_F(ClientTest, FindsThePixelsOfARegionInTheRectifiedImage) {
   const StereoFrame& frame = frames_[0];
   EXPECT_EQ(frame.grid, (PixelGrid{100, 50, 2, 3}));
   const double z = 500 * 0.1 / (value_at(1, 4, 7) / 16.0);
-  EXPECT_FLOAT_EQ(frame.depth_m(4, 7), static_cast<float>(z)) << "disparity counts in px of the whole image";
+  EXPECT_FLOAT_EQ(frame.depth_m(4, 7), static_cast<float>(z))
+      << "disparities are in px of the rectified image";
   EXPECT_FLOAT_EQ(frame.point(4, 7).x, static_cast<float>((100 + 4 * 2 - 6) * z / 500));
   EXPECT_FLOAT_EQ(frame.point(4, 7).y, static_cast<float>((50 + 7 * 3 - 5) * z / 500));
 }
 
-TEST_F(ClientTest, GivesWhatWasNotMeasuredOnlyToWhoAsksForIt) {
+TEST_F(Client, FilledPixels_OnlyOnRequest) {
   const auto filled = [](int x, int y) { return (x + y) % 3 == 0; };
   client_->on_rows([&](const RowBlock& block) {
     std::vector<std::int16_t> measured(kWidth), all(kWidth);
@@ -150,7 +151,7 @@ TEST_F(ClientTest, GivesWhatWasNotMeasuredOnlyToWhoAsksForIt) {
   EXPECT_EQ(frames_[1].filled.width(), 0) << "nothing was filled";
 }
 
-TEST_F(ClientTest, HasDisparityButNoDepthBeforeTheCameraInfoCame) {
+TEST_F(Client, NoCameraInfo_NoDepth) {
   take_frame(1);
   ASSERT_EQ(frames_.size(), 1U);
   EXPECT_FALSE(frames_[0].camera);
@@ -167,7 +168,7 @@ TEST_F(ClientTest, HasDisparityButNoDepthBeforeTheCameraInfoCame) {
   EXPECT_FALSE(frames_[2].camera);
 }
 
-TEST_F(ClientTest, HasInfiniteDepthAndNoPointAtTheHorizon) {
+TEST_F(Client, Horizon_InfiniteDepthNoPoint) {
   const CameraGeometry camera = *geometry_of(camera_info_of());
   EXPECT_EQ(camera.depth_m(0), std::numeric_limits<double>::infinity());
   EXPECT_EQ(camera.depth_m(-1), std::numeric_limits<double>::infinity());
@@ -180,7 +181,7 @@ TEST_F(ClientTest, HasInfiniteDepthAndNoPointAtTheHorizon) {
   EXPECT_TRUE(frame.points().empty());
 }
 
-TEST_F(ClientTest, BelievesNoCameraWhoseNumbersMakeNoSense) {
+TEST_F(Client, InvalidCameraInfo_NoGeometry) {
   const auto refused = [](auto change) {
     camera_info_t info = camera_info_of();
     change(info);
@@ -197,7 +198,7 @@ TEST_F(ClientTest, BelievesNoCameraWhoseNumbersMakeNoSense) {
   EXPECT_TRUE(refused([](auto& m) { m.disparity_offset = kNan; }));
 }
 
-TEST_F(ClientTest, HandsOverRowsAsTheyCome) {
+TEST_F(Client, Rows_HandedOverInOrderOfArrival) {
   std::vector<int> first_rows;
   client_->on_rows([&](const RowBlock& block) {
     const disparity_rows_t& m = block.message();
@@ -225,13 +226,13 @@ TEST_F(ClientTest, HandsOverRowsAsTheyCome) {
   EXPECT_TRUE(frames_.empty());
 }
 
-TEST_F(ClientTest, CountsWhatIsNoMessage) {
+TEST_F(Client, MalformedBytes_CountedAsIgnored) {
   const std::vector<std::uint8_t> rubbish(100, 0x5A);
   client_->take_rows(rubbish.data(), rubbish.size());
   client_->take_frame(rubbish.data(), 0);
   client_->take_camera_info(rubbish.data(), 7);
   std::vector<std::uint8_t> rows = encoded(rows_of(0, 0));
-  client_->take_frame(rows.data(), rows.size());  // good, but on another's channel
+  client_->take_frame(rows.data(), rows.size());  // valid, but on the wrong channel
   rows.pop_back();
   client_->take_rows(rows.data(), rows.size());
   EXPECT_EQ(client_->counts().messages_ignored, 5);
@@ -239,7 +240,7 @@ TEST_F(ClientTest, CountsWhatIsNoMessage) {
   EXPECT_EQ(frames_.size(), 1U);
 }
 
-TEST_F(ClientTest, SaysWhatIsWrongInWords) {
+TEST_F(Client, Counts_DescribedInSentences) {
   for (int i = 0; i < 4; ++i) take_frame(i);
   EXPECT_EQ(describe_problems(client_->counts()), "");
   ReceptionCounts counts;
@@ -254,7 +255,7 @@ TEST_F(ClientTest, SaysWhatIsWrongInWords) {
   EXPECT_NE(describe_problems(counts).find("16 of 480 rows were lost"), std::string::npos);
 }
 
-TEST(ClientConnection, RefusesAUrlAndAPrefixThatCannotBe) {
+TEST(ClientConnection, InvalidUrlOrPrefix_Throws) {
   StereoClient::Options options;
   options.url = "nonsense";
   EXPECT_THROW(StereoClient{options}, std::runtime_error);
@@ -269,7 +270,7 @@ void publish(lcm_t* lcm, const char* channel, const std::vector<std::uint8_t>& b
   lcm_publish(lcm, channel, bytes.data(), static_cast<unsigned int>(bytes.size()));
 }
 
-TEST(ClientConnection, WorksWithinAnLcmThatTheProgramHasAlready) {
+TEST(ClientConnection, ForeignLcm_HandlesFrames) {
   lcm_t* lcm = lcm_create("memq://");
   {
     StereoClient client(lcm, "A.B");
@@ -283,7 +284,7 @@ TEST(ClientConnection, WorksWithinAnLcmThatTheProgramHasAlready) {
     EXPECT_EQ(frames, 1);
     EXPECT_EQ(client.counts().messages_ignored, 0);
   }
-  publish(lcm, "A.B_FRAME", encoded(summary_of(3)));  // the client is gone: nobody is called
+  publish(lcm, "A.B_FRAME", encoded(summary_of(3)));  // the client is destroyed: no handler is called
   EXPECT_EQ(lcm_handle_timeout(lcm, 0), 0);
   lcm_destroy(lcm);
 }

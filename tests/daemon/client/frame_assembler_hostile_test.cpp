@@ -1,4 +1,5 @@
-// The frame assembler and what a network may bring that is not from stereod.
+// SPDX-License-Identifier: BSD-3-Clause
+// The frame assembler with messages that are not from stereod.
 #include "daemon/client/stereod_client.h"
 #include "daemon/lcm/limits.h"
 
@@ -16,7 +17,7 @@
 namespace stereod {
 namespace {
 
-TEST(FrameAssembler, IsNotLedAstrayBySingleForeignNumbers) {
+TEST(FrameAssembler, SingleForeignNumbers_Ignored) {
   for (const std::int64_t foreign :
        {std::numeric_limits<std::int64_t>::max(), std::int64_t{5000}, std::int64_t{0}}) {
     AssemblerFixture f;
@@ -32,8 +33,8 @@ TEST(FrameAssembler, IsNotLedAstrayBySingleForeignNumbers) {
   }
 }
 
-// Exposures that do not go with the numbers are another numbering, as near as those may be.
-TEST(FrameAssembler, DoesNotJumpAheadForASingleMessage) {
+// A message whose exposure does not agree with its number belongs to another numbering, however near the number is.
+TEST(FrameAssembler, SingleForeignExposure_Ignored) {
   for (const std::int64_t step : {std::int64_t{10}, std::int64_t{1000}}) {
     AssemblerFixture f;
     for (int i = 1000; i < 1010; ++i) {
@@ -49,8 +50,8 @@ TEST(FrameAssembler, DoesNotJumpAheadForASingleMessage) {
   }
 }
 
-// Two daemons of the same settings that were started together.
-TEST(FrameAssembler, TellsOfASecondDaemonOnTheChannel) {
+// Two daemons with equal settings that were started together.
+TEST(FrameAssembler, SecondDaemon_Counted) {
   AssemblerFixture f;
   for (int i = 0; i < 10; ++i) {
     f.assembler.take(rows_of(i, 0));
@@ -67,7 +68,7 @@ TEST(FrameAssembler, TellsOfASecondDaemonOnTheChannel) {
       << describe_problems(f.counts());
 }
 
-TEST(FrameAssembler, RecoversIfTheVeryFirstMessageIsForeign) {
+TEST(FrameAssembler, FirstMessageForeign_Recovers) {
   AssemblerFixture f;
   f.assembler.take(rows_of(std::numeric_limits<std::int64_t>::max(), 0));
   for (int i = 0; i < 5; ++i) f.take_frame(i);
@@ -76,7 +77,7 @@ TEST(FrameAssembler, RecoversIfTheVeryFirstMessageIsForeign) {
   EXPECT_EQ(f.counts().rows_lost, 0);
 }
 
-TEST(FrameAssembler, IgnoresWhatContradictsTheFrame) {
+TEST(FrameAssembler, ContradictingRows_Ignored) {
   AssemblerFixture f;
   f.assembler.take(rows_of(0, 0));
   const auto ignored = [&f](auto change) {
@@ -126,7 +127,7 @@ constexpr std::array<std::int32_t, 16> kHostile = {0,
                                                    std::numeric_limits<std::int32_t>::min(),
                                                    std::numeric_limits<std::int32_t>::min() + 1};
 
-TEST(FrameAssembler, IgnoresSizesThatDoNotFit) {
+TEST(FrameAssembler, InvalidRows_Ignored) {
   AssemblerFixture f;
   int tried = 0;
   const auto take = [&](const disparity_rows_t& m) {
@@ -149,11 +150,11 @@ TEST(FrameAssembler, IgnoresSizesThatDoNotFit) {
     if (value < 1 || value > 4096) with([value](auto& m) { m.disparities = value; });
     if (value < 0 || value > 4096) with([value](auto& m) { m.min_disparity = value; });
     if (value < 0 || value > 65535) with([value](auto& m) { m.invalid = value; });
-    // So far to the right or down that the last column or row would lie outside of any image.
+    // The last column or row would lie outside any image.
     if (value < 0 || value >= 4095) with([value](auto& m) { m.left = m.top = value; });
     if (value < 1 || value >= 4095) with([value](auto& m) { m.decimation_x = value; });
     if (value < 1 || value >= 4095) with([value](auto& m) { m.decimation_y = value; });
-    // 4 is right: two rows of twelve bits, each in whole bytes.
+    // The right size is 4: two rows of 12 bits, each in whole bytes.
     if (value != 0 && value != 4) with([value](auto& m) { m.filled_size = value; });
     if (value > 0 && value < 256 && value != 4)
       with([value](auto& m) {
@@ -173,7 +174,7 @@ TEST(FrameAssembler, IgnoresSizesThatDoNotFit) {
   EXPECT_TRUE(f.frames.empty());
 }
 
-TEST(FrameAssembler, IgnoresSummariesThatMakeNoSense) {
+TEST(FrameAssembler, InvalidSummaries_Ignored) {
   AssemblerFixture f;
   int tried = 0;
   const auto with = [&](auto change) {
@@ -193,11 +194,11 @@ TEST(FrameAssembler, IgnoresSummariesThatMakeNoSense) {
   EXPECT_EQ(f.counts().messages_ignored, tried);
 }
 
-TEST(FrameAssembler, SurvivesHostileFields) {
+TEST(FrameAssembler, HostileFields_Survives) {
   Random random(3);
   AssemblerFixture f;
-  const auto hostile = [&random](std::int32_t sane) {
-    return random.one_in(4) ? random.one_of(kHostile) : sane;
+  const auto hostile = [&random](std::int32_t valid) {
+    return random.one_in(4) ? random.one_of(kHostile) : valid;
   };
   for (int round = 0; round < 20'000; ++round) {
     const std::int64_t frame = random.one_in(50)   ? static_cast<std::int64_t>(random.next())

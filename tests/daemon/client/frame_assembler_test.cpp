@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/client/stereod_client.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 namespace stereod {
 namespace {
 
-TEST(FrameAssembler, HandsAFrameOverAsSoonAsItIsWhole) {
+TEST(FrameAssembler, CompleteFrame_HandedOverAtOnce) {
   AssemblerFixture f;
   const auto messages = messages_of(0);
   for (std::size_t i = 0; i + 1 < messages.size(); ++i) f.take(messages[i]);
@@ -28,7 +29,7 @@ TEST(FrameAssembler, HandsAFrameOverAsSoonAsItIsWhole) {
   expect_pixels(f.frames[0]);
 }
 
-TEST(FrameAssembler, TakesRowsInAnyOrder) {
+TEST(FrameAssembler, RowsInAnyOrder_Assembled) {
   Random random(1);
   for (int round = 0; round < 200; ++round) {
     AssemblerFixture f;
@@ -44,7 +45,7 @@ TEST(FrameAssembler, TakesRowsInAnyOrder) {
   }
 }
 
-TEST(FrameAssembler, KeepsInterleavedFramesApart) {
+TEST(FrameAssembler, InterleavedFrames_KeptApart) {
   Random random(2);
   for (int round = 0; round < 200; ++round) {
     AssemblerFixture f;
@@ -70,7 +71,7 @@ TEST(FrameAssembler, KeepsInterleavedFramesApart) {
   }
 }
 
-TEST(FrameAssembler, ReadsOneByteValuesAndOddInvalids) {
+TEST(FrameAssembler, OneByteValues_Decoded) {
   AssemblerFixture f;
   disparity_rows_t m = rows_of(0, 0, kHeight);
   m.bytes_per_value = 1;
@@ -89,7 +90,7 @@ TEST(FrameAssembler, ReadsOneByteValuesAndOddInvalids) {
   EXPECT_EQ(f.frames[0].disparity.at(2, 0), 9);
 }
 
-TEST(FrameAssembler, TakesValuesBeyondInt16AsNoDisparity) {
+TEST(FrameAssembler, ValuesBeyondInt16_NoDisparity) {
   AssemblerFixture f;
   disparity_rows_t m = rows_of(0, 0, kHeight);
   m.data[0] = 0xFF;
@@ -103,7 +104,39 @@ TEST(FrameAssembler, TakesValuesBeyondInt16AsNoDisparity) {
   EXPECT_EQ(f.frames[0].disparity.at(1, 0), DisparityMap::kNone);
 }
 
-TEST(FrameAssembler, HandsOverWhatItHasWhenTheNextFrameIsComplete) {
+TEST(FrameAssembler, Confidence_Assembled) {
+  const auto with_confidence = [](int first_row) {
+    disparity_rows_t rows = rows_of(1, first_row);
+    for (int i = 0; i < kWidth * rows.row_count; ++i) {
+      rows.confidence.push_back(static_cast<std::uint8_t>(first_row * kWidth + i));
+    }
+    rows.confidence_size = static_cast<std::int32_t>(rows.confidence.size());
+    return rows;
+  };
+  AssemblerFixture f;
+  for (int y = 0; y < kHeight; y += kRowsPerMessage) {
+    if (y != 4) f.assembler.take(with_confidence(y));
+  }
+  f.assembler.take(summary_of(1));
+  f.take_frame(2);
+  ASSERT_EQ(f.frames.size(), 2U);
+  const ConfidenceMap& confidence = f.frames[0].confidence;
+  ASSERT_EQ(confidence.width(), kWidth);
+  ASSERT_EQ(confidence.height(), kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      EXPECT_EQ(confidence.at(x, y), y == 4 || y == 5 ? 0 : y * kWidth + x) << x << ", " << y;
+    }
+  }
+  EXPECT_EQ(f.frames[1].confidence.width(), 0) << "not published";
+  disparity_rows_t bad = with_confidence(0);
+  bad.confidence.pop_back();
+  bad.confidence_size--;
+  f.assembler.take(bad);
+  EXPECT_EQ(f.counts().messages_ignored, 1);
+}
+
+TEST(FrameAssembler, NextFrameComplete_HandsOverIncomplete) {
   AssemblerFixture f;
   f.take_frame(0);
   for (const int row : {0, 2, 6, 8}) f.assembler.take(rows_of(1, row));
@@ -120,8 +153,8 @@ TEST(FrameAssembler, HandsOverWhatItHasWhenTheNextFrameIsComplete) {
   expect_pixels(frame);
   EXPECT_EQ(f.frames[2].frame, 2);
   EXPECT_TRUE(f.frames[2].complete());
-  f.assembler.take(rows_of(1, 4));  // too late
-  f.assembler.take(rows_of(1, 2));  // again
+  f.assembler.take(rows_of(1, 4));  // late
+  f.assembler.take(rows_of(1, 2));  // duplicate
   EXPECT_EQ(f.counts().messages_late, 1);
   EXPECT_EQ(f.counts().rows_duplicate, 2);
   EXPECT_EQ(f.frames.size(), 3U);
@@ -130,22 +163,22 @@ TEST(FrameAssembler, HandsOverWhatItHasWhenTheNextFrameIsComplete) {
   EXPECT_EQ(f.counts().rows_lost, 2);
 }
 
-TEST(FrameAssembler, HandsOverWhatItHasWhenTwoNewerFramesHaveBegun) {
+TEST(FrameAssembler, TwoNewerFrames_HandsOverIncomplete) {
   AssemblerFixture f;
   f.take_frame(0);
   f.assembler.take(rows_of(1, 0));
   f.assembler.take(rows_of(2, 0));
-  EXPECT_EQ(f.frames.size(), 1U);  // 1 may still be made whole
+  EXPECT_EQ(f.frames.size(), 1U);  // frame 1 may still become complete
   f.assembler.take(rows_of(3, 0));
   ASSERT_EQ(f.frames.size(), 2U);
   EXPECT_EQ(f.frames[1].frame, 1);
   EXPECT_EQ(f.frames[1].rows_received, 2);
-  f.assembler.take(rows_of(1, 4));  // too late
+  f.assembler.take(rows_of(1, 4));  // late
   EXPECT_EQ(f.counts().messages_late, 1);
   EXPECT_EQ(f.frames.size(), 2U);
 }
 
-TEST(FrameAssembler, ReportsAFrameWhoseLastMessageIsMissing) {
+TEST(FrameAssembler, SummaryMissing_Incomplete) {
   AssemblerFixture f;
   f.take_frame(0);
   for (int row = 0; row < kHeight; row += 2) f.assembler.take(rows_of(1, row));
@@ -162,7 +195,7 @@ TEST(FrameAssembler, ReportsAFrameWhoseLastMessageIsMissing) {
   EXPECT_EQ(frame->rows_received, kHeight);
 }
 
-TEST(FrameAssembler, CountsDuplicatesOnce) {
+TEST(FrameAssembler, Duplicates_CountedOnce) {
   AssemblerFixture f;
   f.assembler.take(rows_of(0, 0));
   f.assembler.take(rows_of(0, 0));
@@ -171,12 +204,12 @@ TEST(FrameAssembler, CountsDuplicatesOnce) {
   EXPECT_EQ(f.counts().rows_duplicate, 4);
   ASSERT_EQ(f.frames.size(), 1U);
   expect_pixels(f.frames[0]);
-  f.take_frame(0);  // once more after it was handed over
+  f.take_frame(0);  // again after the handover
   EXPECT_EQ(f.frames.size(), 1U);
   EXPECT_EQ(f.counts().rows_duplicate, 4 + kHeight);
 }
 
-TEST(FrameAssembler, CountsFramesOfWhichNothingCame) {
+TEST(FrameAssembler, FramesMissing_Counted) {
   AssemblerFixture f;
   f.take_frame(10);
   f.take_frame(14);
@@ -187,7 +220,7 @@ TEST(FrameAssembler, CountsFramesOfWhichNothingCame) {
   EXPECT_EQ(f.counts().rows_lost, 3 * kHeight);
 }
 
-TEST(FrameAssembler, LeavesOutTheFramesUnderWayAtBeginningAndEnd) {
+TEST(FrameAssembler, FirstAndLastIncomplete_NotCounted) {
   AssemblerFixture f;
   f.assembler.take(rows_of(7, 6));
   f.assembler.take(rows_of(7, 8));
@@ -199,10 +232,10 @@ TEST(FrameAssembler, LeavesOutTheFramesUnderWayAtBeginningAndEnd) {
   EXPECT_EQ(f.counts().frames_expected, 2);
   EXPECT_EQ(f.counts().frames_complete, 2);
   EXPECT_EQ(f.counts().rows_lost, 0);
-  EXPECT_EQ(f.frames.size(), 4U);  // but they are handed over
+  EXPECT_EQ(f.frames.size(), 4U);  // they are handed over all the same
 }
 
-TEST(FrameAssembler, ExpectsNoMoreRowsThanWerePublished) {
+TEST(FrameAssembler, FewerRowsPublished_Complete) {
   AssemblerFixture f;
   f.take_frame(0);
   for (const int row : {2, 4, 6}) f.assembler.take(rows_of(1, row));
@@ -215,7 +248,7 @@ TEST(FrameAssembler, ExpectsNoMoreRowsThanWerePublished) {
   expect_pixels(f.frames[1]);
 }
 
-TEST(FrameAssembler, FollowsADaemonThatWasStartedAgain) {
+TEST(FrameAssembler, DaemonRestarted_Followed) {
   AssemblerFixture f;
   for (int i = 0; i < 100; ++i) f.take_frame(i);
   for (int i = 0; i < 10; ++i) {
@@ -226,12 +259,12 @@ TEST(FrameAssembler, FollowsADaemonThatWasStartedAgain) {
   }
   f.assembler.finish();
   EXPECT_EQ(f.counts().restarts, 1);
-  EXPECT_EQ(f.counts().frames_complete, 100 + 9);  // the first one told it of the restart
+  EXPECT_EQ(f.counts().frames_complete, 100 + 9);  // the first frame revealed the restart
   EXPECT_EQ(f.counts().frames_missing, 0);
   EXPECT_EQ(f.counts().rows_lost, 0);
 }
 
-/// Messages overtake each other by up to three places, as datagrams do, never by a frame.
+/// Shuffles messages by up to three places, as datagrams are, never by a frame.
 void overtake(std::vector<Message>& messages, Random& random) {
   std::vector<std::pair<int, Message>> places;
   places.reserve(messages.size());
@@ -244,7 +277,7 @@ void overtake(std::vector<Message>& messages, Random& random) {
                  [](const auto& place) { return place.second; });
 }
 
-TEST(FrameAssembler, CountsAddUpWhateverIsLostAndShuffled) {
+TEST(FrameAssembler, LostAndShuffled_CountsAddUp) {
   Random random(4);
   for (int round = 0; round < 50; ++round) {
     AssemblerFixture f;

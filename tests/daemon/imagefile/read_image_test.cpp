@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/imagefile/read_image.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@
 namespace stereod {
 namespace {
 
-constexpr Size kSize{13, 9};  // not a multiple of anything
+constexpr Size kSize{13, 9};  // multiples of no power of two
 constexpr int kPixels = 13 * 9;
 
 template <typename Pixel>
@@ -29,11 +30,11 @@ int scaled(int value, int max) { return (value * 255 * 2 + max) / (2 * max); }
 class ReadImage : public testing::Test {
  protected:
   std::filesystem::path file(const Bytes& bytes) {
-    write_bytes(directory_ / "image.bin", bytes);  // the name must not matter
+    write_bytes(directory_ / "image.bin", bytes);  // the name does not matter
     return directory_ / "image.bin";
   }
 
-  /// The file's pixels, gray or color, are these samples on a scale of 0…max.
+  /// Expects the pixels of a gray file to be @p samples on a scale of 0…max, read as gray and as color.
   void expect_gray(const Bytes& bytes, const std::vector<int>& samples, int max) {
     const auto path = file(bytes);
     const std::vector<std::uint8_t> gray = pixels_of(read_gray(path));
@@ -64,7 +65,7 @@ class ReadImage : public testing::Test {
     }
   }
 
-  /// One sentence: the file and what is wrong with it.
+  /// Expects an error in one line: the file and what is wrong with it.
   void expect_refused(const std::filesystem::path& path, const std::string& what) {
     const auto check = [&](const std::string& sentence) {
       EXPECT_EQ(sentence.rfind(path.string() + ": ", 0), 0U) << sentence;
@@ -76,8 +77,7 @@ class ReadImage : public testing::Test {
     check(file_error_of([&] { read_gray16(path); }));
   }
 
-  /// Whatever is cut off the end, the file reads as the whole one or is refused; never a crash or another
-  /// image.
+  /// Expects every truncated copy of the file to be refused or to read as the whole file.
   void expect_truncation_noticed(const Bytes& bytes) {
     const std::vector<std::uint8_t> whole = pixels_of(read_gray(file(bytes)));
     int refused = 0;
@@ -97,7 +97,7 @@ class ReadImage : public testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(ReadImage, GrayWeightsAreThoseOfBt601) {
+TEST_F(ReadImage, GrayWeights_Bt601) {
   EXPECT_EQ(gray_of({0, 0, 0}), 0);
   EXPECT_EQ(gray_of({255, 255, 255}), 255);
   EXPECT_EQ(gray_of({255, 0, 0}), 76);
@@ -105,7 +105,7 @@ TEST_F(ReadImage, GrayWeightsAreThoseOfBt601) {
   EXPECT_EQ(gray_of({0, 0, 255}), 29);
 }
 
-TEST_F(ReadImage, ReadsGrayPngOfEveryDepth) {
+TEST_F(ReadImage, GrayPngOfEveryDepth_Read) {
   for (const int depth : {1, 2, 4, 8, 16}) {
     for (const bool interlaced : {false, true}) {
       SCOPED_TRACE(std::to_string(depth) + (interlaced ? " bits, interlaced" : " bits"));
@@ -116,7 +116,7 @@ TEST_F(ReadImage, ReadsGrayPngOfEveryDepth) {
   }
 }
 
-TEST_F(ReadImage, ReadsColorPng) {
+TEST_F(ReadImage, ColorPng_Read) {
   for (const int depth : {8, 16}) {
     for (const bool interlaced : {false, true}) {
       SCOPED_TRACE(std::to_string(depth) + (interlaced ? " bits, interlaced" : " bits"));
@@ -127,7 +127,7 @@ TEST_F(ReadImage, ReadsColorPng) {
   }
 }
 
-TEST_F(ReadImage, IgnoresTransparency) {
+TEST_F(ReadImage, Transparency_Ignored) {
   for (const int depth : {8, 16}) {
     SCOPED_TRACE(depth);
     const int max = (1 << depth) - 1;
@@ -144,7 +144,7 @@ TEST_F(ReadImage, IgnoresTransparency) {
   }
 }
 
-TEST_F(ReadImage, ReadsPalettes) {
+TEST_F(ReadImage, PalettePng_Read) {
   for (const int depth : {1, 2, 4, 8}) {
     SCOPED_TRACE(depth);
     const std::vector<int> indices = some_samples(kPixels, (1 << depth) - 1);
@@ -157,7 +157,7 @@ TEST_F(ReadImage, ReadsPalettes) {
   }
 }
 
-TEST_F(ReadImage, ReadsJpegNearlyAsItWas) {
+TEST_F(ReadImage, Jpeg_ReadNearlyExact) {
   constexpr Size size{37, 21};
   std::vector<int> smooth;
   for (int i = 0; i < size.width * size.height; ++i) smooth.push_back(100 + i % size.width * 3);
@@ -169,7 +169,7 @@ TEST_F(ReadImage, ReadsJpegNearlyAsItWas) {
   }
 }
 
-TEST_F(ReadImage, GrayOfAColorJpegIsItsLuma) {
+TEST_F(ReadImage, ColorJpeg_GrayIsLuma) {
   constexpr Size size{16, 16};
   std::vector<int> samples;
   for (int i = 0; i < 256; ++i) samples.insert(samples.end(), {200, 40, 90});
@@ -181,7 +181,7 @@ TEST_F(ReadImage, GrayOfAColorJpegIsItsLuma) {
   EXPECT_NEAR(read_gray(path).at(8, 8), gray_of({200, 40, 90}), 2);
 }
 
-TEST_F(ReadImage, ReadsRawPgmAndPpmOfEveryMaxval) {
+TEST_F(ReadImage, RawPnmOfEveryMaxval_Read) {
   for (const int max : {1, 15, 100, 255, 256, 1023, 65535}) {
     SCOPED_TRACE(max);
     const std::vector<int> gray = some_samples(kPixels, max);
@@ -192,19 +192,19 @@ TEST_F(ReadImage, ReadsRawPgmAndPpmOfEveryMaxval) {
   }
 }
 
-TEST_F(ReadImage, ReadsPlainPgmAndPpm) {
+TEST_F(ReadImage, PlainPnm_Read) {
   expect_gray(bytes_of("P2 3 2 15\n0 1 2\n13 14 15\n"), {0, 1, 2, 13, 14, 15}, 15);
   expect_gray(bytes_of("P2\r\n2 1\r\n65535\r\n40000 7\r\n"), {40000, 7}, 65535);
   expect_color(bytes_of("P3 2 1 255  1 2 3   254 20 9 "), {1, 2, 3, 254, 20, 9}, 255);
 }
 
-TEST_F(ReadImage, SkipsCommentsInPnm) {
+TEST_F(ReadImage, PnmComments_Skipped) {
   const std::string header = "P5# made by hand\n# width 99\n2 # and height\n 1#\n255\n";
   expect_gray(make_raw_pnm(header, {'#', 10}, false), {'#', 10}, 255);
   expect_gray(bytes_of("P2 2 1 #max\n 9# that was it\n1 # one\n 2\n"), {1, 2}, 9);
 }
 
-TEST_F(ReadImage, ReadsAColorPictureOfGrayPixelsAsGroundTruth) {
+TEST_F(ReadImage, ColorFileOfGrayPixels_ReadAsGray16) {
   std::vector<int> samples;
   for (int i = 0; i < kPixels; ++i) samples.insert(samples.end(), {2 * i, 2 * i, 2 * i});
   EXPECT_EQ(read_gray16(file(make_png(PngKind::kRgb, 8, false, kSize, samples))).at(3, 1), 32);
@@ -214,7 +214,7 @@ TEST_F(ReadImage, ReadsAColorPictureOfGrayPixelsAsGroundTruth) {
             std::string::npos);
 }
 
-TEST_F(ReadImage, RefusesWhatIsNoFile) {
+TEST_F(ReadImage, NotARegularFile_Throws) {
   expect_refused(directory_ / "missing.png", "the file does not exist");
   expect_refused(directory_ / "no" / "directory.png", "the file does not exist");
   expect_refused(directory_.path(), "is a directory; a file is needed");
@@ -222,9 +222,9 @@ TEST_F(ReadImage, RefusesWhatIsNoFile) {
   expect_refused(file({}), "the file is empty");
 }
 
-TEST_F(ReadImage, RefusesWhatItMayNotRead) {
+TEST_F(ReadImage, Unreadable_Throws) {
   if (::geteuid() == 0) {
-    // Nothing is forbidden to root, but the start of its own memory is not there.
+    // Root may read every file, but the start of its own memory is unmapped.
     expect_refused("/proc/self/mem", "the file cannot be read (");
     return;
   }
@@ -233,15 +233,15 @@ TEST_F(ReadImage, RefusesWhatItMayNotRead) {
   expect_refused(path, "the file cannot be read (Permission denied)");
 }
 
-TEST_F(ReadImage, RefusesOtherFormats) {
+TEST_F(ReadImage, OtherFormats_Throw) {
   expect_refused(file(bytes_of("GIF89a....")),
-                 "begins with the bytes 47 49 46 38); PNG, JPEG, PGM and PPM are");
-  expect_refused(file(bytes_of("P4 8 1 x")), "is no image that is known here");
-  expect_refused(file(bytes_of("P")), "is no image that is known here (it begins with the bytes 50)");
+                 "(begins with the bytes 47 49 46 38); allowed are PNG, JPEG, PGM and PPM");
+  expect_refused(file(bytes_of("P4 8 1 x")), "is not an image in a known format");
+  expect_refused(file(bytes_of("P")), "is not an image in a known format (begins with the bytes 50)");
   expect_refused(file(make_cmyk_jpeg({16, 16})), "CMYK");
 }
 
-TEST_F(ReadImage, RefusesAbsurdSizes) {
+TEST_F(ReadImage, SizeOutOfRange_Throws) {
   const std::string limit = "pixels; 1 to 16384 a side are allowed";
   expect_refused(file(bytes_of("P5 16385 1 255\n")), "16385×1 " + limit);
   expect_refused(file(bytes_of("P5 1 100000000 255\n")), limit);
@@ -252,15 +252,15 @@ TEST_F(ReadImage, RefusesAbsurdSizes) {
   expect_refused(file(bytes_of("P2 99999999999999999999 1 255\n")), "the width is above");
 }
 
-TEST_F(ReadImage, RefusesAHeaderThatPromisesMoreThanThereIs) {
-  // Nothing of this size is allocated first.
+TEST_F(ReadImage, HeaderBeyondFile_Throws) {
+  // Nothing of this size is allocated.
   expect_refused(file(bytes_of("P6 16384 16384 65535\nabc")), "the PPM file is truncated");
   Bytes png = make_png(PngKind::kRgb, 16, false, {16384, 1}, some_samples(3 * 16384, 65535));
   png.resize(200);
   expect_refused(file(png), "the PNG file is truncated");
 }
 
-TEST_F(ReadImage, RefusesDamagedFiles) {
+TEST_F(ReadImage, Damaged_Throws) {
   const std::vector<int> samples = some_samples(kPixels, 255);
   Bytes png = make_png(PngKind::kGray, 8, false, kSize, samples);
   png[png.size() - 20] ^= 0x55;  // in the data's check sum
@@ -282,7 +282,7 @@ TEST_F(ReadImage, RefusesDamagedFiles) {
   expect_refused(file(bytes_of("P5 2 1 65536\nabcd")), "the maxval is 65536; 1 to 65535 is allowed");
 }
 
-TEST_F(ReadImage, NoticesEveryTruncation) {
+TEST_F(ReadImage, AnyTruncation_Noticed) {
   constexpr Size small{5, 4};
   const std::vector<int> gray = some_samples(20, 255);
   expect_truncation_noticed(make_png(PngKind::kGray, 8, false, small, gray));
@@ -296,8 +296,8 @@ TEST_F(ReadImage, NoticesEveryTruncation) {
   expect_truncation_noticed(bytes_of("P3 1 2 255 100 101 102 213 214 215\n"));
 }
 
-TEST_F(ReadImage, SurvivesEveryDamagedByte) {
-  // Any result will do but a crash, which an address sanitizer makes certain.
+TEST_F(ReadImage, AnyDamagedByte_Survives) {
+  // Any result is right except a crash; an address sanitizer makes it certain.
   for (const Bytes& bytes : {make_png(PngKind::kRgb, 8, true, {5, 4}, some_samples(60, 255)),
                              make_gray_jpeg({5, 4}, some_samples(20, 255), true),
                              bytes_of("P3 1 2 255 100 101 102 213 214 215\n")}) {

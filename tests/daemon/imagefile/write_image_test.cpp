@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/imagefile/write_image.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +39,7 @@ class WriteImage : public testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(WriteImage, GrayPngComesBack) {
+TEST_F(WriteImage, GrayPng_ReadsBack) {
   GrayImage image(19, 7);
   for (int y = 0; y < 7; ++y) {
     for (int x = 0; x < 19; ++x) image.at(x, y) = static_cast<std::uint8_t>(31 * x + 57 * y);
@@ -47,7 +48,7 @@ TEST_F(WriteImage, GrayPngComesBack) {
   expect_same(read_gray(directory_ / "a.png"), image);
 }
 
-TEST_F(WriteImage, ColorPngComesBack) {
+TEST_F(WriteImage, ColorPng_ReadsBack) {
   ColorImage image(19, 7);
   for (int y = 0; y < 7; ++y) {
     for (int x = 0; x < 19; ++x) {
@@ -59,7 +60,7 @@ TEST_F(WriteImage, ColorPngComesBack) {
   expect_same(read_color(directory_ / "a.png"), image);
 }
 
-TEST_F(WriteImage, WidePngComesBack) {
+TEST_F(WriteImage, Gray16Png_ReadsBack) {
   Image<std::uint16_t> image(19, 7);
   for (int y = 0; y < 7; ++y) {
     for (int x = 0; x < 19; ++x) image.at(x, y) = static_cast<std::uint16_t>(3001 * x + 4567 * y);
@@ -68,7 +69,7 @@ TEST_F(WriteImage, WidePngComesBack) {
   expect_same(read_gray16(directory_ / "a.png"), image);
 }
 
-TEST_F(WriteImage, PfmIsLaidOutAsMiddleburyDoes) {
+TEST_F(WriteImage, Pfm_MiddleburyLayout) {
   Image<float> image(2, 2);
   image.at(0, 0) = 1.5F;
   image.at(1, 0) = kUnknown;
@@ -85,7 +86,7 @@ TEST_F(WriteImage, PfmIsLaidOutAsMiddleburyDoes) {
   EXPECT_TRUE(is_pfm(directory_ / "a.pfm"));
 }
 
-TEST_F(WriteImage, ReadsBigEndianPfmAndIgnoresTheScale) {
+TEST_F(WriteImage, BigEndianPfm_Read) {
   Bytes bytes = bytes_of("Pf\n1 2\n0.003922\n");
   for (const int byte : {0x40, 0x00, 0x00, 0x00, 0x3f, 0x80, 0x00, 0x00})
     bytes.push_back(static_cast<std::uint8_t>(byte));
@@ -96,7 +97,7 @@ TEST_F(WriteImage, ReadsBigEndianPfmAndIgnoresTheScale) {
   EXPECT_EQ(image.at(0, 1), 2.0F);
 }
 
-TEST_F(WriteImage, RefusesBadPfm) {
+TEST_F(WriteImage, InvalidPfm_Throws) {
   const auto path = directory_ / "a.pfm";
   const auto expect_refused = [&](const std::string& content, const std::string& what) {
     write_bytes(path, bytes_of(content));
@@ -105,7 +106,7 @@ TEST_F(WriteImage, RefusesBadPfm) {
     EXPECT_NE(sentence.find(what), std::string::npos) << sentence;
   };
   expect_refused("PF\n1 1\n-1.0\nabcdabcdabcd", "is a color PFM; a gray one (Pf) is needed");
-  expect_refused("P5\n1 1\n255\na", "is no PFM; the file must begin with Pf");
+  expect_refused("P5\n1 1\n255\na", "is not a PFM; the file must begin with Pf");
   expect_refused("Pf\n1 1\n-1.0\nabc", "the PFM file is truncated");
   expect_refused("Pf\n1 1", "scale");
   expect_refused("Pf", "width");
@@ -116,7 +117,7 @@ TEST_F(WriteImage, RefusesBadPfm) {
   expect_refused("", "the file is empty");
 }
 
-TEST_F(WriteImage, LeavesNoTemporaryAndReplacesAsAWhole) {
+TEST_F(WriteImage, Existing_ReplacedAsAWhole) {
   const GrayImage small(3, 3);
   const GrayImage large(30, 30);
   write_png(directory_ / "a.png", large.view());
@@ -125,7 +126,7 @@ TEST_F(WriteImage, LeavesNoTemporaryAndReplacesAsAWhole) {
   EXPECT_EQ(files_in_directory(), 1);
 }
 
-TEST_F(WriteImage, WritesThroughALink) {
+TEST_F(WriteImage, Link_TargetReplaced) {
   const GrayImage image(3, 3);
   write_bytes(directory_ / "real.png", bytes_of("old"));
   std::filesystem::create_symlink(directory_ / "real.png", directory_ / "link.png");
@@ -134,7 +135,7 @@ TEST_F(WriteImage, WritesThroughALink) {
   EXPECT_EQ(read_gray(directory_ / "real.png").size(), image.size());
 }
 
-TEST_F(WriteImage, SaysWhyItCannotWrite) {
+TEST_F(WriteImage, Unwritable_ThrowsReason) {
   const GrayImage image(3, 3);
   const auto sentence = [&](const std::filesystem::path& path) {
     return file_error_of([&] { write_png(path, image.view()); });
@@ -159,7 +160,7 @@ class DisparityFile : public testing::Test {
   DisparityImage disparity_;
 };
 
-TEST_F(DisparityFile, PfmHoldsPixels) {
+TEST_F(DisparityFile, Pfm_HoldsPixels) {
   write_disparity(directory_ / "d.pfm", disparity_.view(), 16);
   const Image<float> pixels = read_pfm(directory_ / "d.pfm");
   EXPECT_EQ(pixels.at(0, 0), kUnknown);
@@ -169,7 +170,7 @@ TEST_F(DisparityFile, PfmHoldsPixels) {
   EXPECT_EQ(pixels.at(4, 0), 2047.9375F);
 }
 
-TEST_F(DisparityFile, PngHoldsThe256thsOfKitti) {
+TEST_F(DisparityFile, Png_HoldsKittiUnits) {
   disparity_.at(4, 0) = 4095;
   write_disparity(directory_ / "d.png", disparity_.view(), 16);
   const Image<std::uint16_t> values = read_gray16(directory_ / "d.png");
@@ -179,17 +180,17 @@ TEST_F(DisparityFile, PngHoldsThe256thsOfKitti) {
   EXPECT_EQ(values.at(3, 0), 65520);
 }
 
-TEST_F(DisparityFile, PngRefusesWhatItCannotHold) {
+TEST_F(DisparityFile, PngOverflow_Throws) {
   disparity_.at(4, 0) = 256 * 16;
   const auto path = directory_ / "d.png";
-  EXPECT_EQ(file_error_of([&] { write_disparity(path, disparity_.view(), 16); }),
-            path.string() +
-                ": a disparity of 256 px was found, and a KITTI PNG holds less than 256; write a .pfm "
-                "file instead");
+  EXPECT_EQ(
+      file_error_of([&] { write_disparity(path, disparity_.view(), 16); }),
+      path.string() +
+          ": found a disparity of 256 px; a KITTI PNG holds less than 256 px; write a .pfm file instead");
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-TEST_F(DisparityFile, WholePixelsToo) {
+TEST_F(DisparityFile, WholePixels_Written) {
   disparity_.at(3, 0) = disparity_.at(4, 0) = 255;
   write_disparity(directory_ / "d.png", disparity_.view(), 1);
   write_disparity(directory_ / "d.pfm", disparity_.view(), 1);
@@ -197,7 +198,7 @@ TEST_F(DisparityFile, WholePixelsToo) {
   EXPECT_EQ(read_pfm(directory_ / "d.pfm").at(2, 0), 24.0F);
 }
 
-TEST_F(DisparityFile, RefusesOtherEndings) {
+TEST_F(DisparityFile, OtherExtension_Throws) {
   for (const char* name : {"d.tif", "d", "d.png.bak", ".png"}) {
     const auto path = directory_ / name;
     const std::string sentence = file_error_of([&] { write_disparity(path, disparity_.view(), 1); });

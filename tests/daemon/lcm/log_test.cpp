@@ -153,7 +153,7 @@ TEST_F(LcmLog, SurvivesRandomDamage) {
 }
 
 TEST(LogSummary, CountsByChannel) {
-  LogSummary summary;
+  tools::LogSummary summary;
   for (int i = 0; i < 11; ++i) summary.add("STEREO_FRAME", i * 100'000, 100);
   summary.add("STEREO_\x1b[2J", 1'000'000, 2'500'000);
   EXPECT_EQ(summary.messages(), 12);

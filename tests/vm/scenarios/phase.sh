@@ -20,7 +20,7 @@ size=320x240 start_stereod "serial:$left_serial" "serial:$right_serial" mjpeg 's
     sync_attempts: 12'
 need_streaming 60
 # With a median skew below 3 ms. Once aligned, it stays so up to twice the target.
-aligned() { get_status && grep -q '^phase alignment  *aligned, skew -\{0,1\}[0-2]\.' status.txt; }
+aligned() { get_status && grep -q '^synchronization  *aligned, skew -\{0,1\}[0-2]\.' status.txt; }
 if ! wait_for 90 aligned; then
   cat status.txt stereod.log
   # The stamps are taken by the guest's clock when a frame begins to arrive: on a busy machine much too late.
@@ -32,11 +32,11 @@ if ! wait_for 90 aligned; then
 fi
 cat status.txt stereod.log
 restarts=$(sed -n 's/.* \([0-9]*\) restarts.*/\1/p' status.txt)
-shown "$(sed -n 's/^phase alignment  *//p' status.txt) (stamps $jitter µs off)"
+shown "$(sed -n 's/^synchronization  *//p' status.txt) (stamps $jitter µs off)"
 [[ $restarts -ge 1 ]] || fail "they were in phase from the start, so nothing was shown"
 
 tell right drift 1500  # a crystal so bad that it takes seconds, not minutes
-drifted() { get_status && grep -q "^phase alignment  *drifted" status.txt; }
+drifted() { get_status && grep -q "^synchronization  *drifted" status.txt; }
 wait_for 40 drifted || { cat status.txt; fail "the drift between the cameras was not detected"; }
-shown "$(sed -n 's/^phase alignment  *//p' status.txt)"
+shown "$(sed -n 's/^synchronization  *//p' status.txt)"
 stop_stereod

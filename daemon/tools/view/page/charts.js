@@ -1,8 +1,8 @@
-'use strict';
-// Histograms, and the obstacle scan from above.
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws histograms and the obstacle scan from above.
 
-// How often each value came, the latest `values` of them, with the range on the axis.
-function drawHistogram(canvas, values) {
+// The distribution of `values`, with their range on the axis.
+export function drawHistogram(canvas, values) {
   const c = canvas.getContext('2d'), w = canvas.width, h = canvas.height;
   c.clearRect(0, 0, w, h);
   if (!values.length) return;
@@ -12,9 +12,9 @@ function drawHistogram(canvas, values) {
   high = low + 1.1 * spread;
   const bins = new Array(40).fill(0);
   for (const value of values) bins[Math.min(39, Math.floor((value - low) / (high - low) * 40))]++;
-  const most = Math.max(...bins);
+  const maximum = Math.max(...bins);
   c.fillStyle = '#5aa9e6';
-  bins.forEach((n, i) => c.fillRect(i * w / 40 + 1, (h - 22) * (1 - n / most), w / 40 - 2, (h - 22) * n / most));
+  bins.forEach((n, i) => c.fillRect(i * w / 40 + 1, (h - 22) * (1 - n / maximum), w / 40 - 2, (h - 22) * n / maximum));
   c.fillStyle = '#a7b1bf';
   c.font = '16px sans-serif';
   c.textAlign = 'left';
@@ -25,26 +25,26 @@ function drawHistogram(canvas, values) {
   c.fillText('the last ' + values.length + ' frames', w / 2, h - 4);
 }
 
-// The robot stands at the bottom and looks up; arcs are meters.
-function drawScan(canvas, scan) {
+// The robot stands at the bottom and looks up; the arcs are distances.
+export function drawScan(canvas, scan) {
   const c = canvas.getContext('2d'), w = canvas.width, h = canvas.height;
   c.clearRect(0, 0, w, h);
   c.font = '16px sans-serif';
   c.fillStyle = '#a7b1bf';
   if (!scan) {
     c.textAlign = 'center';
-    c.fillText('no scan: set scan.enabled in the daemon\'s configuration', w / 2, h / 2);
+    c.fillText('no scan: set scan.enabled in stereod.yaml', w / 2, h / 2);
     return;
   }
-  const farthest = Math.max(...scan.ranges, 0.1);
-  const scale = (h - 30) / farthest, x0 = w / 2, y0 = h - 10;
+  const maximum = Math.max(...scan.ranges, 0.1);
+  const scale = (h - 30) / maximum, x0 = w / 2, y0 = h - 10;
   const place = (angle, range) => [x0 - Math.sin(angle) * range * scale, y0 - Math.cos(angle) * range * scale];
   scan.ranges.forEach((range, i) => {
     const angle = scan.rad0 + i * scan.radstep;
     c.beginPath();
     c.moveTo(x0, y0);
-    c.lineTo(...place(angle - scan.radstep / 2, range || farthest));
-    c.lineTo(...place(angle + scan.radstep / 2, range || farthest));
+    c.lineTo(...place(angle - scan.radstep / 2, range || maximum));
+    c.lineTo(...place(angle + scan.radstep / 2, range || maximum));
     c.fillStyle = range === 0 ? '#3a2f34' : '#1f3a34';
     c.fill();
     if (!scan.support[i]) return;
@@ -59,8 +59,8 @@ function drawScan(canvas, scan) {
   c.strokeStyle = '#465063';
   c.fillStyle = '#a7b1bf';
   c.textAlign = 'left';
-  const apart = Math.ceil(farthest / 10);
-  for (let meters = apart; meters <= farthest; meters += apart) {
+  const spacing = Math.ceil(maximum / 10);
+  for (let meters = spacing; meters <= maximum; meters += spacing) {
     c.beginPath();
     c.arc(x0, y0, meters * scale, Math.PI, 2 * Math.PI);
     c.stroke();

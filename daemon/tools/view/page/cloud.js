@@ -1,17 +1,17 @@
-'use strict';
-// The point cloud, in WebGL: turns by itself until it is dragged. Where drawing takes long, as without a graphics card, it
-// shows fewer points, and turns in fewer steps.
-class Cloud {
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws the point cloud with WebGL. It turns slowly until it is dragged. Where drawing is slow, as without a graphics card, it
+// shows fewer points and turns in larger steps.
+export class Cloud {
   constructor(canvas) {
     this.canvas = canvas;
     this.yaw = 0;
     this.pitch = 0.25;
     this.dragged = 0;
     this.count = 0;
-    this.spacing = 2;  // px of the rectified image from point to point
-    this.began = 0;    // when it was last asked to be drawn, ms
-    this.fence = null; // what says that this has been done
-    this.took = 16;    // ms that it takes
+    this.spacing = 2;  // from point to point, px of the rectified image
+    this.began = 0;    // time of the latest draw(), ms
+    this.fence = null; // signalled when the graphics card has finished it
+    this.took = 16;    // duration of a draw(), smoothed, ms
     const gl = this.gl = canvas.getContext('webgl2', { preserveDrawingBuffer: true, antialias: false });
     if (!gl) return;
     const program = this.program = gl.createProgram();
@@ -62,7 +62,7 @@ class Cloud {
     requestAnimationFrame(turn);
   }
 
-  // x, y, z of each point in meters, and how bright it is, 0 to 1.
+  // Replaces the points: x, y, z [m] and brightness [0…1] of each.
   show(points) {
     const gl = this.gl;
     if (!gl) return;
@@ -75,14 +75,14 @@ class Cloud {
     gl.bufferData(gl.ARRAY_BUFFER, points, gl.DYNAMIC_DRAW);
   }
 
-  // Whether what was asked for last has been drawn; nobody waits for it.
+  // Returns without blocking whether the latest draw() is finished, and adapts the spacing of the points.
   isDone(now) {
     const gl = this.gl;
     if (!this.fence) return true;
     if (gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED) return false;
     gl.deleteSync(this.fence);
     this.fence = null;
-    this.took += 0.3 * (Math.min(now - this.began, 200) - this.took);  // at most: nothing is drawn in a hidden tab
+    this.took += 0.3 * (Math.min(now - this.began, 200) - this.took);  // limited, because a hidden tab draws nothing
     if (this.took > 40 && this.spacing < 8) this.spacing++, this.took = 30;
     if (this.took < 20 && this.spacing > 2) this.spacing--, this.took = 30;
     return true;

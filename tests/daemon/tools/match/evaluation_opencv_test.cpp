@@ -1,5 +1,6 @@
-// The figures of evaluate() for OpenCV's own block matcher, against those that came with the data sets. They
-// were computed by another program, so this holds the definitions to an independent witness.
+// SPDX-License-Identifier: BSD-3-Clause
+// Compares evaluate() for OpenCV's block matcher with the published results of the data sets, which another program
+// computed.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -14,7 +15,7 @@
 
 #include "daemon/tools/match/evaluation.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 std::filesystem::path datasets() {
@@ -22,7 +23,7 @@ std::filesystem::path datasets() {
   return std::filesystem::path(STEREOD_SOURCE_DIR) / ".." / "shared" / "datasets";
 }
 
-/// The first number named `key` behind the first mention of `section`.
+/// Returns the first number named @p key after the first mention of @p section.
 double number_in(const std::string& json, const std::string& section, const std::string& key) {
   const std::string rest = json.substr(json.find("\"" + section + "\""));
   std::smatch match;
@@ -31,9 +32,8 @@ double number_in(const std::string& json, const std::string& section, const std:
   return std::stod(match[1].str());
 }
 
-/// What StereoBM finds, 1/16 px, in our own image with our own word for unmatched. OpenCV reads the images,
-/// because its PNG reader rounds gray a little differently than cvtColor and read_gray() do, and the figures
-/// came from it.
+/// Returns the disparities of StereoBM [1/16 px], unmatched as kInvalidDisparity. OpenCV reads the images, because its PNG
+/// reader rounds gray differently from cvtColor and read_gray(), and the published results used it.
 DisparityImage block_match(const std::filesystem::path& directory, int disparities) {
   const cv::Mat left = cv::imread((directory / "left.png").string(), cv::IMREAD_GRAYSCALE);
   const cv::Mat right = cv::imread((directory / "right.png").string(), cv::IMREAD_GRAYSCALE);
@@ -51,7 +51,7 @@ DisparityImage block_match(const std::filesystem::path& directory, int dispariti
 
 class EvaluationOfOpenCv : public testing::TestWithParam<const char*> {};
 
-TEST_P(EvaluationOfOpenCv, IsWhatTheDataSetSays) {
+TEST_P(EvaluationOfOpenCv, DataSet_AsPublished) {
   const std::filesystem::path directory = datasets() / GetParam();
   if (!std::filesystem::exists(directory / "meta.json")) {
     GTEST_SKIP() << "the data set " << GetParam() << " is not in " << datasets()
@@ -65,7 +65,7 @@ TEST_P(EvaluationOfOpenCv, IsWhatTheDataSetSays) {
   const DisparityImage found = block_match(directory, disparities);
   const Evaluation result = evaluate(found.view(), 16, truth.view(), 255.0 / disparities);
 
-  // Half of the last digit that is given, rounded up.
+  // Half of the last digit given, rounded up.
   EXPECT_NEAR(result.bad1_known, number_in(meta, "BM11", "bad1_all"), 0.006);
   EXPECT_NEAR(result.bad2_known, number_in(meta, "BM11", "bad2_all"), 0.006);
   EXPECT_NEAR(result.bad1_matched, number_in(meta, "BM11", "bad1_m"), 0.006);
@@ -79,4 +79,4 @@ INSTANTIATE_TEST_SUITE_P(Middlebury, EvaluationOfOpenCv, testing::Values("mb2001
                          [](const auto& parameter) { return std::string(parameter.param); });
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -7,7 +7,7 @@ set -euo pipefail
 bin=$1
 share=$2
 screenshot=${3:-}
-examples=$(cd "$(dirname "${BASH_SOURCE[0]}")/../examples" && pwd)
+examples=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../../examples" && pwd)
 classpath=/usr/share/java/lcm.jar:$share/stereod-spy.jar
 
 skip() {
@@ -80,7 +80,7 @@ children+=("$spy")
 has_window() { xdotool search --name "$1" >/dev/null 2>&1; }
 wait_until has_window 'LCM Spy' || fail "no list of channels: $(cat "$work/spy.out")"
 wait_until has_window '^SPY_DISPARITY 640x480 [0-9.]+ frames/s [0-9]+ rows lost$' ||
-  fail "no picture of the rows: $(cat "$work/spy.out")"
+  fail "no image of the rows: $(cat "$work/spy.out")"
 shows_fields() { has_window "^SPY_$1 [0-9.]+ messages/s, 0 ignored\$"; }
 wait_until shows_fields STATUS || fail "no window with the fields of the status: $(cat "$work/spy.out")"
 ! grep -qi exception "$work/spy.out" || fail "$(cat "$work/spy.out")"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/tap/status_table.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +8,7 @@
 #include "daemon/tools/tap/reception_report.h"
 #include "daemon/tools/tap/text_table.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 std::string joined(const std::vector<std::string>& lines) {
@@ -16,7 +17,7 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-TEST(Printable, LeavesTextAndTakesTheRest) {
+TEST(Printable, ControlCharacters_Replaced) {
   EXPECT_EQ(printable("plain text, \xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80"),
             "plain text, \xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80");
   EXPECT_EQ(printable("\x1b[2Jgone\r\n\t\x7f"), "?[2Jgone????");
@@ -27,7 +28,7 @@ TEST(Printable, LeavesTextAndTakesTheRest) {
   EXPECT_EQ(printable(std::string_view("\0", 1)), "?");
 }
 
-TEST(Wrapped, BreaksAtSpacesAndCutsLongWords) {
+TEST(Wrapped, LongText_BrokenAtSpaces) {
   using Lines = std::vector<std::string>;
   EXPECT_EQ(wrapped("", 5), Lines{""});
   EXPECT_EQ(wrapped("one two three", 8), (Lines{"one two", "three"}));
@@ -36,7 +37,7 @@ TEST(Wrapped, BreaksAtSpacesAndCutsLongWords) {
   EXPECT_EQ(wrapped("\xC3\xA4\xC3\xA4\xC3\xA4", 2), (Lines{"\xC3\xA4\xC3\xA4", "\xC3\xA4"}));
 }
 
-TEST(TextTable, AlignsColumns) {
+TEST(TextTable, Rows_Aligned) {
   TextTable table({{}, {.align = TextTable::Align::kRight, .min_width = 4}});
   table.add_row({"a", "1"});
   table.add_row({"long", "12345"});
@@ -44,7 +45,7 @@ TEST(TextTable, AlignsColumns) {
   EXPECT_EQ(joined(table.lines()), "a         1\nlong  12345\nend\n");
 }
 
-/// Counts are numbered from `count` + 1 on.
+/// Returns a camera status with the counts @p count + 1, + 2, …
 camera_status_t camera(const std::string& name, const std::string& device, const std::string& state,
                        const std::string& reason, double fps, std::int64_t count) {
   camera_status_t c{};
@@ -67,7 +68,7 @@ camera_status_t camera(const std::string& name, const std::string& device, const
   return c;
 }
 
-TEST(StatusTable, ShowsEveryField) {
+TEST(StatusTable, Status_ShowsEveryField) {
   status_t s{};
   s.utime = 1'700'000'000'000'000;
   s.state = "degraded";
@@ -94,6 +95,9 @@ TEST(StatusTable, ShowsEveryField) {
   s.latency_ms_max = 5.55;
   s.match_ms_median = 6.66;
   s.measured_fraction = 0.777;
+  s.filled_fraction = 0.123;
+  s.no_evidence_fraction = 0.091;
+  s.paced = 1;
   s.cpu_percent = 88.8;
   s.rss_mb = 99.9;
   s.epipolar_error_px = 3.21;
@@ -133,7 +137,8 @@ TEST(StatusTable, ShowsEveryField) {
                                "now /dev/b", "fmt-left",
                                "fmt-right",  "note-left",
                                "note-right", "42 s ago: pulled out",
-                               "3.21"}) {
+                               "3.21",       "12.3",
+                               "9.1",        "paced"}) {
     EXPECT_NE(text.find(expected), std::string::npos) << expected << " is missing from\n" << text;
   }
   EXPECT_EQ(lines[0].substr(0, 5), "state");
@@ -141,7 +146,16 @@ TEST(StatusTable, ShowsEveryField) {
   for (const std::string& line : lines) EXPECT_LE(display_width(line), 80U) << line;
 }
 
-TEST(StatusTable, StaysATableWithAnythingInIt) {
+TEST(StatusTable, UnknownFraction_NotKnown) {
+  status_t s{};
+  s.no_evidence_fraction = -1;
+  EXPECT_NE(joined(status_lines(s)).find("not known"), std::string::npos);
+  s.no_evidence_fraction = 0;
+  s.epipolar_points = 10;
+  EXPECT_EQ(joined(status_lines(s)).find("not known"), std::string::npos);
+}
+
+TEST(StatusTable, HostileStatus_StaysATable) {
   status_t s{};
   s.utime = INT64_MAX;
   s.reason = std::string(500, 'x');
@@ -156,7 +170,7 @@ TEST(StatusTable, StaysATableWithAnythingInIt) {
   }
 }
 
-TEST(Duration, IsInWords) {
+TEST(Duration, Seconds_InWords) {
   EXPECT_EQ(duration_in_words(7.9), "7 s");
   EXPECT_EQ(duration_in_words(125), "2 min 05 s");
   EXPECT_EQ(duration_in_words(3725), "1 h 02 min");
@@ -164,7 +178,7 @@ TEST(Duration, IsInWords) {
   EXPECT_EQ(duration_in_words(-1), "-");
 }
 
-TEST(Spread, TakesTheNearestRank) {
+TEST(Spread, Values_NearestRank) {
   std::vector<double> values;
   for (int i = 100; i >= 1; --i) values.push_back(i);
   const Spread s = spread_of(values);
@@ -175,7 +189,7 @@ TEST(Spread, TakesTheNearestRank) {
   EXPECT_EQ(spread_of({}).max, 0);
 }
 
-TEST(Reception, ReportsWhatWasLost) {
+TEST(Reception, Losses_Reported) {
   Reception reception;
   reception.counts = {.frames_expected = 10,
                       .frames_complete = 8,
@@ -190,9 +204,9 @@ TEST(Reception, ReportsWhatWasLost) {
   EXPECT_TRUE(reception.anything_lost());
   EXPECT_DOUBLE_EQ(reception.fps(), 10);
   const std::string text = joined(report_lines(reception));
-  EXPECT_NE(text.find("10.0 frames a second"), std::string::npos) << text;
+  EXPECT_NE(text.find("10.0 frames/s"), std::string::npos) << text;
   EXPECT_NE(text.find("4300"), std::string::npos) << text;
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::tools

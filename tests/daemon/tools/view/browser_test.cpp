@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The page in a browser: stereod, stereo-view and Chromium as a user runs them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,13 +23,13 @@
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_directory.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 constexpr const char* kUrl = "udpm://239.255.76.67:17668?ttl=0";  // a port of the tests' own
 const std::filesystem::path kBin = STEREOD_BIN_DIR;
 
-class BrowserTest : public testing::Test {
+class Browser : public testing::Test {
  protected:
   void SetUp() override {
     if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
@@ -40,14 +41,14 @@ class BrowserTest : public testing::Test {
         << "lcm: {url: \"" << kUrl << "\", prefix: WEB, left_image: jpeg}\n";
   }
 
-  /// Waits, at most three minutes: a browser that draws without a graphics card takes its time.
+  /// Waits for at most three minutes: a browser without a graphics card is slow.
   static bool wait_until(const std::function<bool()>& is_so) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(3);
     while (!is_so()) {
       if (std::chrono::steady_clock::now() > deadline) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
-    return true;  // asked once: a moving image may look as it did a moment later
+    return true;  // evaluated once: a moving image may return to an earlier state
   }
 
   ChildProgram start_stereod() {
@@ -64,9 +65,9 @@ std::string page_of(const ChildProgram& view) {
   return text.substr(0, text.find('\n'));
 }
 
-/// A press of the button gives three files: the disparities to the last bit, their image, the left image.
+/// The button saves three files: the exact disparities, their image and the left image.
 void expect_saved_frame(Chromium& browser, const StereoFrame& sent) {
-  // What would be written to the disk is kept instead.
+  // The page keeps what it would write to the disk.
   browser.evaluate(
       "(() => { window.saved = []; window.kept = new Map();"
       " URL.createObjectURL = blob => { const url = 'blob:' + kept.size; kept.set(url, blob); return url; };"
@@ -82,13 +83,13 @@ void expect_saved_frame(Chromium& browser, const StereoFrame& sent) {
   EXPECT_EQ(browser.evaluate("saved.map(s => s[0]).sort().join(' ')"),
             name + "-left.png " + name + ".pfm " + name + ".png");
   const std::string of = "(async () => { const b = new Uint8Array(await saved.find(s => s[0] === '";
-  for (const char* picture : {".png", "-left.png"}) {
+  for (const char* suffix : {".png", "-left.png"}) {
     EXPECT_EQ(
         browser.evaluate(
-            of + name + picture +
+            of + name + suffix +
             "')[1].arrayBuffer()); return String.fromCharCode(...b.slice(1, 4)) + (b.length > 5000); })()"),
         "PNGtrue")
-        << picture;
+        << suffix;
   }
   EXPECT_EQ(
       browser.evaluate(of + name +
@@ -110,13 +111,13 @@ void expect_saved_frame(Chromium& browser, const StereoFrame& sent) {
   EXPECT_EQ(different, 0);
 }
 
-TEST_F(BrowserTest, ShowsWhatIsOnTheWire) {
+TEST_F(Browser, Stream_ShownAsOnTheWire) {
   std::map<std::int64_t, StereoFrame> wire;
   StereoClient::Options options;
   options.url = kUrl;
   options.prefix = "WEB";
   options.latest_only = false;
-  options.queue_messages = 100'000;  // what comes while the browser takes its time
+  options.queue_messages = 100'000;  // what arrives while the browser is busy
   StereoClient client(options);
   client.on_frame([&](StereoFrame&& frame) { wire.emplace(frame.frame, std::move(frame)); });
 
@@ -136,9 +137,9 @@ TEST_F(BrowserTest, ShowsWhatIsOnTheWire) {
   };
   ASSERT_TRUE(shows_frames(20));
 
-  // A frame of the page, all of it, beside the same frame from the wire.
+  // Compares a complete frame of the page with the same frame from the wire.
   const std::string whole_and_streaming =
-      "view.moment.frame && view.moment.frame.complete && document.getElementById('state').textContent";
+      "view.snapshot.frame && view.snapshot.frame.complete && document.getElementById('state').textContent";
   ASSERT_TRUE(wait_until([&] {
     client.handle(1);
     browser.evaluate("view.paused = true");
@@ -147,7 +148,7 @@ TEST_F(BrowserTest, ShowsWhatIsOnTheWire) {
     browser.evaluate("view.paused = false");
     return false;
   }));
-  const YAML::Node snapshot = YAML::Load(browser.evaluate("JSON.stringify(view.moment)"));
+  const YAML::Node snapshot = YAML::Load(browser.evaluate("JSON.stringify(view.snapshot)"));
   const YAML::Node frame = snapshot["frame"];
   const auto number = frame["frame"].as<std::int64_t>();
   ASSERT_TRUE(wait_until([&] {
@@ -188,15 +189,15 @@ TEST_F(BrowserTest, ShowsWhatIsOnTheWire) {
   EXPECT_GT(looked_at, 10);
   expect_saved_frame(browser, sent);
 
-  // And it lives: every image changes.
+  // Every image changes.
   browser.evaluate("view.paused = false");
   for (const char* id : {"left", "disparity", "cloud", "latency-chart"}) {
-    const std::string picture = "document.getElementById('" + std::string(id) + "').toDataURL()";
-    const std::string first = browser.evaluate(picture);
+    const std::string content = "document.getElementById('" + std::string(id) + "').toDataURL()";
+    const std::string first = browser.evaluate(content);
     EXPECT_GT(first.size(), 2000U) << id;
     EXPECT_TRUE(wait_until([&] {
       client.handle(1);
-      return browser.evaluate(picture) != first;
+      return browser.evaluate(content) != first;
     })) << id;
   }
   EXPECT_THAT(browser.evaluate("document.getElementById('cameras').textContent"),
@@ -206,7 +207,7 @@ TEST_F(BrowserTest, ShowsWhatIsOnTheWire) {
   }
 }
 
-TEST_F(BrowserTest, ComesBackWhenDaemonAndServerWereAway) {
+TEST_F(Browser, DaemonAndServerRestarted_Reconnects) {
   const std::string port = std::to_string(20000 + ::getpid() % 20000);
   const std::vector<std::string> arguments{"--lcm-url", kUrl, "--prefix", "WEB", "--port", port};
   Chromium browser(*chromium_, directory_.path());
@@ -229,4 +230,4 @@ TEST_F(BrowserTest, ComesBackWhenDaemonAndServerWereAway) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::tools

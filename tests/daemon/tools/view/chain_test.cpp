@@ -1,5 +1,6 @@
-// One frame's way through every program: stereod, stereo-tap, a recording, stereod again, a program with the
-// client library, stereo-view.
+// SPDX-License-Identifier: BSD-3-Clause
+// One frame through every program: stereod, stereo-tap, a recording, stereod again, a program with the client library,
+// stereo-view.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
@@ -22,7 +23,7 @@
 #include "tests/support/snapshot.h"
 #include "tests/support/temporary_directory.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 using testing::HasSubstr;
@@ -31,14 +32,14 @@ constexpr Size kSize{320, 240};
 constexpr const char* kUrl = "udpm://239.255.76.67:17673?ttl=0";  // a port of the test's own
 const std::filesystem::path kBin = STEREOD_BIN_DIR;
 
-class ChainTest : public testing::Test {
+class Chain : public testing::Test {
  protected:
   void SetUp() override {
     if (const auto why = why_no_multicast()) GTEST_SKIP() << *why;
     write_recorded_pairs(directory_.path(), kSize, 1);  // for its calibration
   }
 
-  /// A stereod; `more` is what its lcm section has besides, and what follows it.
+  /// Starts stereod; @p more is appended to its lcm section.
   ChildProgram start_stereod(const std::string& prefix, const std::string& cameras, const std::string& more) {
     const std::filesystem::path config = directory_ / (prefix + ".yaml");
     std::ofstream(config) << "cameras: {" << cameras << "}\ncalibration: calibration.yaml\n"
@@ -55,7 +56,7 @@ class ChainTest : public testing::Test {
   TemporaryDirectory directory_;
 };
 
-/// The port that stereo-view says it listens on; 0 if it does not within a minute.
+/// Returns the port that stereo-view prints; 0 if it prints none within a minute.
 int port_of(const ChildProgram& view) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (std::chrono::steady_clock::now() < deadline) {
@@ -78,7 +79,7 @@ void expect_same(const StereoFrame& a, const StereoFrame& b) {
   }
 }
 
-TEST_F(ChainTest, AFrameIsTheSameAfterEveryProgram) {
+TEST_F(Chain, Frame_SameAfterEveryProgram) {
   const std::filesystem::path log = directory_ / "field.lcm";
   {
     ChildProgram field =
@@ -86,7 +87,7 @@ TEST_F(ChainTest, AFrameIsTheSameAfterEveryProgram) {
                       ", raw_images: true, raw_images_per_second: 60");
     ProgramRun check = tap({"check", "--seconds", "3"});
     for (int i = 0; i < 10 && check.status == 2; ++i)
-      check = tap({"check", "--seconds", "3"});  // nothing yet
+      check = tap({"check", "--seconds", "3"});  // no frame yet
     EXPECT_EQ(check.status, 0) << check.out << check.err;
     const ProgramRun recording = tap({"record", log.string(), "--seconds", "4"});
     ASSERT_EQ(recording.status, 0) << recording.err;
@@ -97,8 +98,8 @@ TEST_F(ChainTest, AFrameIsTheSameAfterEveryProgram) {
   const std::map<std::int64_t, StereoFrame> recorded = frames_of(log, "FIELD");
   ASSERT_GT(recorded.size(), 5U);
 
-  // Played, the recording is what it was.
-  std::map<std::int64_t, StereoFrame> played, pair_queue;
+  // The played recording equals the recorded frames.
+  std::map<std::int64_t, StereoFrame> played, rematched;
   const auto listener = [](const char* prefix, std::map<std::int64_t, StereoFrame>& frames) {
     StereoClient::Options options;
     options.url = kUrl;
@@ -124,13 +125,13 @@ TEST_F(ChainTest, AFrameIsTheSameAfterEveryProgram) {
     expect_same(frame, recorded.at(utime));
   }
 
-  // Matched again from its raw images, and looked at on the page.
+  // Matched again from its raw images, and shown on the page.
   ChildProgram view(kBin / "stereo-view", {"--lcm-url", kUrl, "--prefix", "DESK", "--port", "0"},
                     directory_.path());
   const int port = port_of(view);
   ASSERT_GT(port, 0);
   httplib::Client web("127.0.0.1", port);
-  const auto client = listener("DESK", pair_queue);
+  const auto client = listener("DESK", rematched);
   std::map<std::int64_t, DecodedSnapshot> shown;
   {
     ChildProgram stereod = start_stereod(
@@ -138,11 +139,11 @@ TEST_F(ChainTest, AFrameIsTheSameAfterEveryProgram) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     std::int64_t after = 0;
     while (shown.size() < 5 && std::chrono::steady_clock::now() < deadline) {
-      const auto answer = web.Get("/moment?after=" + std::to_string(after) + "&step=1");
+      const auto answer = web.Get("/snapshot?after=" + std::to_string(after) + "&step=1");
       while (client->handle(1)) {
       }
       if (!answer || answer->status != 200) continue;
-      const DecodedSnapshot snapshot = decoded_moment(answer->body);
+      const DecodedSnapshot snapshot = decode_snapshot(answer->body);
       after = snapshot.json["number"].as<std::int64_t>();
       if (snapshot.json["frame"] && snapshot.json["frame"]["complete"].as<bool>()) {
         shown.emplace(snapshot.json["frame"]["utime"].as<std::int64_t>(), snapshot);
@@ -152,19 +153,19 @@ TEST_F(ChainTest, AFrameIsTheSameAfterEveryProgram) {
   }
   while (client->handle(200)) {
   }
-  ASSERT_GE(pair_queue.size(), 5U);
+  ASSERT_GE(rematched.size(), 5U);
   int compared = 0;
-  for (const auto& [utime, frame] : pair_queue) {
+  for (const auto& [utime, frame] : rematched) {
     const auto original = recorded.find(utime);
     if (original == recorded.end()) continue;  // only its raw images were recorded
     expect_same(frame, original->second);
     ++compared;
   }
-  EXPECT_GE(compared, static_cast<int>(pair_queue.size()) - 2);
+  EXPECT_GE(compared, static_cast<int>(rematched.size()) - 2);
   ASSERT_GE(shown.size(), 5U);
   for (const auto& [utime, snapshot] : shown) {
-    ASSERT_EQ(pair_queue.count(utime), 1U);
-    const StereoFrame& frame = pair_queue.at(utime);
+    ASSERT_EQ(rematched.count(utime), 1U);
+    const StereoFrame& frame = rematched.at(utime);
     const YAML::Node json = snapshot.json["frame"];
     EXPECT_EQ(json["left"].as<int>(), 20);
     EXPECT_EQ(json["top"].as<int>(), 30);
@@ -176,8 +177,8 @@ TEST_F(ChainTest, AFrameIsTheSameAfterEveryProgram) {
       }
     }
   }
-  EXPECT_GT(shown.rbegin()->second.left.size(), 1000U) << "the left image comes with it";
+  EXPECT_GT(shown.rbegin()->second.left.size(), 1000U) << "with the left image";
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/tools/view/live_view.h"
 
 #include <gtest/gtest.h>
@@ -10,10 +11,11 @@
 #include <vector>
 
 #include "daemon/imagefile/jpeg_codec.h"
+#include "daemon/tools/view/snapshot_codec.h"
 #include "tests/support/frame_messages.h"
 #include "tests/support/snapshot.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 using namespace std::chrono_literals;
@@ -27,11 +29,11 @@ StereoFrame frame_of(std::int64_t number) {
   return result;
 }
 
-TEST(LiveView, GivesAFrameAndWhatBelongsToIt) {
+TEST(LiveView, Frame_SnapshotHasAllParts) {
   LiveView view;
   EXPECT_EQ(view.wait_newer(0, 0ms), nullptr);
   status_t status{};
-  status.state = "stre\"am\ning\x1b[2J";  // whatever the network sends
+  status.state = "stre\"am\ning\x1b[2J";  // any text may arrive
   status.pairs_made = 12;
   status.cpu_percent = NAN;
   view.take(std::move(status));
@@ -45,7 +47,7 @@ TEST(LiveView, GivesAFrameAndWhatBelongsToIt) {
   view.take(frame_of(7), counts);
   const auto snapshot = view.wait_newer(0, 0ms);
   ASSERT_TRUE(snapshot && snapshot->frame);
-  const DecodedSnapshot got = decoded_moment(encoded_moment(*snapshot, 1));
+  const DecodedSnapshot got = decode_snapshot(encode_snapshot(*snapshot, 1));
   EXPECT_EQ(got.json["frame"]["frame"].as<int>(), 7);
   EXPECT_EQ(got.json["frame"]["units_per_pixel"].as<int>(), 16);
   EXPECT_EQ(got.json["frame"]["camera"]["fx"].as<double>(), 500);
@@ -61,29 +63,29 @@ TEST(LiveView, GivesAFrameAndWhatBelongsToIt) {
       EXPECT_EQ(got.disparity[static_cast<std::size_t>(y * kWidth + x)], snapshot->frame->disparity.at(x, y));
     }
   }
-  const DecodedSnapshot half = decoded_moment(encoded_moment(*snapshot, 2));
+  const DecodedSnapshot half = decode_snapshot(encode_snapshot(*snapshot, 2));
   ASSERT_EQ(half.disparity.size(), static_cast<std::size_t>(kWidth * kHeight / 4));
   EXPECT_EQ(half.disparity[7], snapshot->frame->disparity.at(2, 2));
 }
 
-TEST(LiveView, WaitsForSomethingNew) {
+TEST(LiveView, WaitNewer_BlocksUntilNewer) {
   LiveView view;
   view.take(frame_of(1), {});
   const std::int64_t first = view.wait_newer(0, 10s)->number;
-  EXPECT_EQ(view.wait_newer(first, 1ms)->number, first);  // nothing new in time: the old one
+  EXPECT_EQ(view.wait_newer(first, 1ms)->number, first);  // timeout: the latest snapshot
   std::thread later([&] { view.take(frame_of(2), {}); });
   EXPECT_EQ(view.wait_newer(first, 60s)->frame->frame, 2);
   later.join();
 }
 
-TEST(LiveView, ShowsAStatusWhenThereAreNoFrames) {
+TEST(LiveView, NoFrames_StatusMakesSnapshot) {
   LiveView view;
   status_t status{};
   status.state = "waiting_for_cameras";
   view.take(std::move(status));
   const auto snapshot = view.wait_newer(0, 0ms);
   ASSERT_TRUE(snapshot);
-  const DecodedSnapshot got = decoded_moment(encoded_moment(*snapshot, 1));
+  const DecodedSnapshot got = decode_snapshot(encode_snapshot(*snapshot, 1));
   EXPECT_EQ(got.json["status"]["state"].as<std::string>(), "waiting_for_cameras");
   EXPECT_FALSE(got.json["frame"]);
 }
@@ -107,7 +109,7 @@ planar_lidar_t scan_of(std::int64_t utime, std::vector<float> ranges) {
   return scan;
 }
 
-TEST(LiveView, ShowsNothingThatHasCeasedToCome) {
+TEST(LiveView, OutdatedScanOrLeft_NotShown) {
   LiveView view;
   const std::int64_t utime = utime_of(9);
   const auto shown = [&](std::int64_t scan_age_us, std::int64_t left_age_us) {
@@ -126,7 +128,7 @@ TEST(LiveView, ShowsNothingThatHasCeasedToCome) {
   EXPECT_EQ(shown(-3'000'000, INT64_MIN / 2), std::pair(false, false));
 }
 
-TEST(LiveView, IsNotConfusedByTimesThatCannotBe) {
+TEST(LiveView, ExtremeTimes_NotShown) {
   LiveView view;
   for (const std::int64_t utime : {INT64_MIN, INT64_MAX}) {
     view.take(scan_of(-1 - utime, {1.5F}));
@@ -142,7 +144,7 @@ TEST(LiveView, IsNotConfusedByTimesThatCannotBe) {
   }
 }
 
-TEST(LiveView, PassesOverScansThatNoDaemonMakes) {
+TEST(LiveView, InvalidScan_Ignored) {
   const std::int64_t utime = utime_of(9);
   planar_lidar_t uneven = scan_of(utime, {1, 2});
   uneven.intensities.pop_back();
@@ -157,7 +159,7 @@ TEST(LiveView, PassesOverScansThatNoDaemonMakes) {
   }
 }
 
-TEST(LiveView, TakesTheLeftImageGrayOrAsJpeg) {
+TEST(LiveView, LeftImage_GrayOrJpeg) {
   LiveView view;
   const auto left_of = [&](const image_t& image) {
     view.take(image);
@@ -166,7 +168,7 @@ TEST(LiveView, TakesTheLeftImageGrayOrAsJpeg) {
   };
   const auto jpeg = left_of(gray_image(64, 48));
   ASSERT_GT(jpeg.size(), 100U);
-  const DecodedImage picture = decode_jpeg("left", jpeg, JpegChannels::kLuma);
+  const DecodedImage image = decode_jpeg("left", jpeg, JpegChannels::kLuma);
   image_t sent = gray_image(64, 48);
   sent.pixelformat = 1196444237;
   sent.row_stride = 0;
@@ -174,7 +176,7 @@ TEST(LiveView, TakesTheLeftImageGrayOrAsJpeg) {
   EXPECT_EQ(left_of(sent), sent.data);
   image_t bad = gray_image(64, 48);
   bad.data.pop_back();
-  EXPECT_EQ(left_of(bad), sent.data);  // passed over: the one before stays
+  EXPECT_EQ(left_of(bad), sent.data);  // ignored: the previous image stays
   bad = gray_image(64, 48);
   bad.width = bad.row_stride = 1 << 20;
   EXPECT_EQ(left_of(bad), sent.data);
@@ -184,4 +186,4 @@ TEST(LiveView, TakesTheLeftImageGrayOrAsJpeg) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::tools

@@ -1,4 +1,5 @@
-// The page's server and whoever speaks to it.
+// SPDX-License-Identifier: BSD-3-Clause
+// The server of the page and its clients, well-behaved and hostile.
 #include "daemon/tools/view/view_server.h"
 
 #include <arpa/inet.h>
@@ -14,17 +15,18 @@
 #include <string>
 #include <vector>
 
+#include "daemon/tools/view/snapshot_codec.h"
 #include "tests/support/frame_messages.h"
 #include "tests/support/random_images.h"
 
-namespace stereod {
+namespace stereod::tools {
 namespace {
 
 using testing::HasSubstr;
 
-class ViewServerTest : public testing::Test {
+class StereoView : public testing::Test {
  protected:
-  ViewServerTest() {
+  StereoView() {
     StereoFrame frame;
     frame.disparity = DisparityMap(64, 48);
     view_.take(std::move(frame), {});
@@ -37,22 +39,23 @@ class ViewServerTest : public testing::Test {
       std::make_unique<ViewServer>(view_, ViewServerOptions{0, {"robot.lan"}});
 };
 
-TEST_F(ViewServerTest, ServesThePageAndWhatItFetches) {
+TEST_F(StereoView, Page_Served) {
   httplib::Client web = client();
   EXPECT_THAT(web.Get("/")->body, HasSubstr("<title>stereo-view</title>"));
   EXPECT_THAT(web.Get("/")->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'none'"));
   EXPECT_EQ(web.Get("/view.js")->status, 200);
   EXPECT_EQ(web.Get("/cloud.js")->status, 200);
   EXPECT_EQ(web.Get("/charts.js")->status, 200);
+  EXPECT_THAT(web.Get("/palette.js")->body, HasSubstr("export const palette = [[0,47,119],"));
   EXPECT_THAT(web.Get("/view.css")->get_header_value("Content-Type"), HasSubstr("text/css"));
-  const auto snapshot = web.Get("/moment?after=0&step=2");
+  const auto snapshot = web.Get("/snapshot?after=0&step=2");
   EXPECT_EQ(snapshot->status, 200);
-  EXPECT_EQ(snapshot->body, encoded_moment(*view_.wait_newer(0, std::chrono::milliseconds(0)), 2));
-  EXPECT_EQ(web.Get("/moment?after=1")->status, 204);     // nothing newer
-  EXPECT_EQ(web.Get("/moment?after=5000")->status, 205);  // seen of an earlier server
+  EXPECT_EQ(snapshot->body, encode_snapshot(*view_.wait_newer(0, std::chrono::milliseconds(0)), 2));
+  EXPECT_EQ(web.Get("/snapshot?after=1")->status, 204);     // no newer snapshot
+  EXPECT_EQ(web.Get("/snapshot?after=5000")->status, 205);  // the number is of an earlier server
   for (const char* range :
        {"bytes=0-1000000", "bytes=900000-900100", "bytes=100-99999999999", "bytes=0-10"}) {
-    const auto part = web.Get("/moment", {{"Range", range}});
+    const auto part = web.Get("/snapshot", {{"Range", range}});
     ASSERT_TRUE(part) << range;
     EXPECT_EQ(part->status, 416) << range;
     EXPECT_LT(part->body.size(), 100U) << range;
@@ -60,21 +63,24 @@ TEST_F(ViewServerTest, ServesThePageAndWhatItFetches) {
   }
   EXPECT_EQ(web.Get("/etc/passwd")->status, 404);
   EXPECT_EQ(web.Get("/../view.js")->status, 404);
-  EXPECT_EQ(web.Post("/moment", "x", "text/plain")->status, 404);
+  EXPECT_EQ(web.Post("/snapshot", "x", "text/plain")->status, 404);
 }
 
-TEST_F(ViewServerTest, ThePageAsksForNothingFromTheNetwork) {
+TEST_F(StereoView, Page_LoadsNothingFromTheNetwork) {
   httplib::Client web = client();
-  for (const char* part : {"/", "/view.js", "/cloud.js", "/charts.js", "/view.css"}) {
+  for (const char* part :
+       {"/", "/view.css", "/charts.js", "/cloud.js", "/geometry.js", "/images.js", "/palette.js",
+        "/points.js", "/save.js", "/snapshot.js", "/status.js", "/view.js"}) {
+    ASSERT_EQ(web.Get(part)->status, 200) << part;
     const std::string text = web.Get(part)->body;
     EXPECT_EQ(text.find("http://"), std::string::npos) << part;
     EXPECT_EQ(text.find("https://"), std::string::npos) << part;
   }
 }
 
-TEST_F(ViewServerTest, RefusesOtherHostsAndOrigins) {
+TEST_F(StereoView, OtherHostOrOrigin_Refused) {
   httplib::Client web = client();
-  for (const char* path : {"/", "/view.js", "/moment"}) {
+  for (const char* path : {"/", "/view.js", "/snapshot"}) {
     EXPECT_EQ(web.Get(path, {{"Host", "example.org"}})->status, 403) << path;
     EXPECT_EQ(web.Get(path, {{"Origin", "http://example.org"}})->status, 403) << path;
     EXPECT_EQ(web.Get(path, {{"Sec-Fetch-Site", "cross-site"}})->status, 403) << path;
@@ -82,17 +88,17 @@ TEST_F(ViewServerTest, RefusesOtherHostsAndOrigins) {
   }
 }
 
-TEST_F(ViewServerTest, AnswersNonsenseWithAnError) {
+TEST_F(StereoView, InvalidQuery_Refused) {
   httplib::Client web = client();
   for (const char* query :
        {"after=-1", "after=x", "after=", "step=0", "step=9", "step=1e9", "after=1;step"}) {
-    EXPECT_EQ(web.Get("/moment?" + std::string(query))->status, 400) << query;
+    EXPECT_EQ(web.Get("/snapshot?" + std::string(query))->status, 400) << query;
   }
-  // A page that knew another server begins anew.
-  EXPECT_EQ(web.Get("/moment?after=99999999999999999999")->status, 205);
+  // A number that this server never reached.
+  EXPECT_EQ(web.Get("/snapshot?after=99999999999999999999")->status, 205);
 }
 
-TEST_F(ViewServerTest, SaysThatAPortIsTaken) {
+TEST_F(StereoView, PortTaken_Throws) {
   try {
     const ViewServer second(view_, {server_->port(), {}});
     FAIL() << "two pages on one port";
@@ -101,7 +107,7 @@ TEST_F(ViewServerTest, SaysThatAPortIsTaken) {
   }
 }
 
-/// A connection that sends what it likes.
+/// A connection that sends any bytes.
 class RawClient {
  public:
   explicit RawClient(int port) : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -122,16 +128,16 @@ class RawClient {
   int fd_;
 };
 
-TEST_F(ViewServerTest, SlowAndMalformedClientsDoNoHarm) {
+TEST_F(StereoView, SlowAndMalformedClients_StillServes) {
   Random random(9);
   std::vector<RawClient> clients;
   for (int i = 0; i < 60; ++i) {
     RawClient& raw = clients.emplace_back(server_->port());
     switch (i % 6) {
-      case 0:  // says nothing
+      case 0:  // sends nothing
         break;
       case 1:
-        raw.send("GET /moment HTTP/1.1\r\nHost: 127.0.0.1\r\nX: ");  // stops in the middle
+        raw.send("GET /snapshot HTTP/1.1\r\nHost: 127.0.0.1\r\nX: ");  // an unfinished request
         break;
       case 2: {
         std::string rubbish;
@@ -143,15 +149,15 @@ TEST_F(ViewServerTest, SlowAndMalformedClientsDoNoHarm) {
         raw.send("GET /" + std::string(100'000, 'a') + " HTTP/1.1\r\n\r\n");
         break;
       case 4:
-        raw.send("POST /moment HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 99999999999\r\n\r\nx");
+        raw.send("POST /snapshot HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 99999999999\r\n\r\nx");
         break;
-      default:  // asks, and never reads
+      default:  // never reads the answers
         for (int k = 0; k < 20; ++k) raw.send("GET /view.js HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
     }
   }
   httplib::Client web = client();
   web.set_read_timeout(60);
-  const auto answer = web.Get("/moment");
+  const auto answer = web.Get("/snapshot");
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 200);
   clients.clear();
@@ -159,4 +165,4 @@ TEST_F(ViewServerTest, SlowAndMalformedClientsDoNoHarm) {
 }
 
 }  // namespace
-}  // namespace stereod
+}  // namespace stereod::tools

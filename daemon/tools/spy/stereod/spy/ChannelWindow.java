@@ -1,4 +1,5 @@
-// A window on one channel: a image for disparity rows and images, the fields with their charts for anything else.
+// SPDX-License-Identifier: BSD-3-Clause
+// A window on one channel: an image for disparity rows and images, fields and charts for other messages.
 package stereod.spy;
 
 import java.awt.image.BufferedImage;
@@ -25,15 +26,15 @@ import stereod.pointcloud_t;
 import stereod.status_t;
 
 class ChannelWindow implements LCMSubscriber {
-    private static final int GREY = 1497715271, MJPEG = 1196444237;
-    private static final int LARGEST_SIDE = 4096;
+    private static final int GRAY = 1497715271, MJPEG = 1196444237;
+    private static final int MAX_SIDE = 4096;
     private static final List<String> FIELDS = List.of("_STATUS", "_FRAME", "_SCAN", "_CAMERA_INFO", "_DEPTH", "_CLOUD");
 
     private final String channel, pattern;
     private final JFrame window;
-    private final PicturePanel panel = new PicturePanel();
+    private final ImagePanel panel = new ImagePanel();
     private ObjectPanel fields;
-    private final RowsPicture rows = new RowsPicture();
+    private final RowsImage rows = new RowsImage();
     private long begin = System.nanoTime(), next = begin, shown, total;
 
     ChannelWindow(String channel, int x, int y) {
@@ -67,12 +68,13 @@ class ChannelWindow implements LCMSubscriber {
                 show(messageOf(in));
             } else if (channel.endsWith("_DISPARITY")) {
                 show(rows.take(new disparity_rows_t(in)));
+                if (rows.problem != null) showProblem(rows.problem);
             } else {
-                BufferedImage picture = pictureOf(new image_t(in));
-                if (picture == null) rows.ignored++;
-                show(picture);
+                BufferedImage image = imageOf(new image_t(in));
+                if (image == null) rows.ignored++;
+                show(image);
             }
-        } catch (IOException | RuntimeException | OutOfMemoryError error) {  // not a message of ours
+        } catch (IOException | RuntimeException | OutOfMemoryError error) {  // not a message of stereod
             rows.ignored++;
         }
     }
@@ -92,7 +94,7 @@ class ChannelWindow implements LCMSubscriber {
 
     private void show(Object message) {
         shown++;
-        if (System.nanoTime() < next) return;  // faster than that nobody reads, and a cloud has thousands of fields
+        if (System.nanoTime() < next) return;  // 5 Hz is enough for a reader; a cloud has thousands of fields
         next = System.nanoTime() + 200_000_000;
         double seconds = (System.nanoTime() - begin) * 1e-9;
         String title = seconds > 1
@@ -108,14 +110,20 @@ class ChannelWindow implements LCMSubscriber {
         });
     }
 
-    private void show(BufferedImage picture) {
-        if (picture == null) return;
+    private void showProblem(String problem) {
+        if (System.nanoTime() < next) return;
+        next = System.nanoTime() + 200_000_000;
+        SwingUtilities.invokeLater(() -> panel.show(null, problem));
+    }
+
+    private void show(BufferedImage image) {
+        if (image == null) return;
         shown++;
         total++;
         double seconds = (System.nanoTime() - begin) * 1e-9;
         String text = window.getTitle().substring(Math.min(channel.length(), window.getTitle().length()));
         if (seconds > 1) {
-            text = String.format(Locale.ROOT, " %dx%d %.1f frames/s %d rows lost", picture.getWidth(), picture.getHeight(),
+            text = String.format(Locale.ROOT, " %dx%d %.1f frames/s %d rows lost", image.getWidth(), image.getHeight(),
                                  shown / seconds, rows.rowsLost);
             begin = System.nanoTime();
             shown = 0;
@@ -123,17 +131,17 @@ class ChannelWindow implements LCMSubscriber {
         String line = text;
         SwingUtilities.invokeLater(() -> {
             window.setTitle(channel + line);
-            panel.show(picture, line + "   " + total + " frames, " + rows.ignored + " messages ignored");
+            panel.show(image, line + "   " + total + " frames, " + rows.ignored + " messages ignored");
         });
     }
 
-    /** Gray or JPEG; null for anything else. */
-    static BufferedImage pictureOf(image_t m) throws IOException {
-        if (m.width <= 0 || m.width > LARGEST_SIDE || m.height <= 0 || m.height > LARGEST_SIDE) return null;
+    /** Returns a gray or JPEG image; null for other formats and invalid messages. */
+    static BufferedImage imageOf(image_t m) throws IOException {
+        if (m.width <= 0 || m.width > MAX_SIDE || m.height <= 0 || m.height > MAX_SIDE) return null;
         if (m.pixelformat == MJPEG) return ImageIO.read(new ByteArrayInputStream(m.data));
-        if (m.pixelformat != GREY || m.row_stride != m.width || m.data.length != m.width * m.height) return null;
-        BufferedImage picture = new BufferedImage(m.width, m.height, BufferedImage.TYPE_BYTE_GRAY);
-        picture.getRaster().setDataElements(0, 0, m.width, m.height, m.data);
-        return picture;
+        if (m.pixelformat != GRAY || m.row_stride != m.width || m.data.length != m.width * m.height) return null;
+        BufferedImage image = new BufferedImage(m.width, m.height, BufferedImage.TYPE_BYTE_GRAY);
+        image.getRaster().setDataElements(0, 0, m.width, m.height, m.data);
+        return image;
     }
 }

@@ -1,4 +1,5 @@
-// What lcm-spy finds by itself: a right click on a channel with disparity rows or images offers a image of it.
+// SPDX-License-Identifier: BSD-3-Clause
+// The plugin that lcm-spy loads: a right click on a channel with disparity rows or images offers to show the image.
 package stereod.spy;
 
 import java.awt.event.ActionEvent;

@@ -1,4 +1,5 @@
-// lcm-spy, with windows on the channels that the command line names.
+// SPDX-License-Identifier: BSD-3-Clause
+// Starts lcm-spy and opens a window for each channel of the command line.
 package stereod.spy;
 
 import javax.swing.SwingUtilities;

@@ -1,4 +1,5 @@
-// A image with a line of text below it.
+// SPDX-License-Identifier: BSD-3-Clause
+// Shows an image with a line of text below.
 package stereod.spy;
 
 import java.awt.Color;
@@ -7,18 +8,18 @@ import java.awt.Graphics;
 import java.awt.image.BufferedImage;
 import javax.swing.JPanel;
 
-class PicturePanel extends JPanel {
+class ImagePanel extends JPanel {
     private static final int TEXT_HEIGHT = 22;
-    private BufferedImage picture;
+    private BufferedImage image;
     private String text = "waiting for messages";
 
-    PicturePanel() {
+    ImagePanel() {
         setBackground(new Color(0x14171c));
         setPreferredSize(new Dimension(640, 480 + TEXT_HEIGHT));
     }
 
-    void show(BufferedImage newPicture, String newText) {
-        picture = newPicture;
+    void show(BufferedImage newImage, String newText) {
+        image = newImage;
         text = newText;
         repaint();
     }
@@ -27,9 +28,9 @@ class PicturePanel extends JPanel {
     protected void paintComponent(Graphics g) {
         super.paintComponent(g);
         int height = getHeight() - TEXT_HEIGHT;
-        if (picture != null && height > 0) {
-            double scale = Math.min((double) getWidth() / picture.getWidth(), (double) height / picture.getHeight());
-            g.drawImage(picture, 0, 0, (int) (scale * picture.getWidth()), (int) (scale * picture.getHeight()), null);
+        if (image != null && height > 0) {
+            double scale = Math.min((double) getWidth() / image.getWidth(), (double) height / image.getHeight());
+            g.drawImage(image, 0, 0, (int) (scale * image.getWidth()), (int) (scale * image.getHeight()), null);
         }
         g.setColor(Color.LIGHT_GRAY);
         g.drawString(text, 6, getHeight() - 7);

@@ -1,11 +1,12 @@
-#include "daemon/tools/view/request_guard.h"
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/http/request_guard.h"
 
 #include <gtest/gtest.h>
 
 namespace stereod {
 namespace {
 
-TEST(RequestGuard, ServesThisMachineOnly) {
+TEST(RequestGuard, OtherHost_Refused) {
   EXPECT_TRUE(may_be_served({"127.0.0.1:8091", "", ""}, {}));
   EXPECT_TRUE(may_be_served({"localhost", "", "none"}, {}));
   EXPECT_TRUE(may_be_served({"localhost:8091", "http://localhost:8091", "same-origin"}, {}));
@@ -16,7 +17,7 @@ TEST(RequestGuard, ServesThisMachineOnly) {
   }
 }
 
-TEST(RequestGuard, ServesNoPageOfAnotherOrigin) {
+TEST(RequestGuard, OtherOrigin_Refused) {
   for (const char* origin : {"http://example.org", "null", "http://localhost", "https://localhost:8091",
                              "http://127.0.0.1:8091", "http://localhost:8092"}) {
     EXPECT_FALSE(may_be_served({"localhost:8091", origin, ""}, {})) << origin;
@@ -25,7 +26,7 @@ TEST(RequestGuard, ServesNoPageOfAnotherOrigin) {
   EXPECT_FALSE(may_be_served({"localhost:8091", "", "same-site"}, {}));
 }
 
-TEST(RequestGuard, ServesAHostThatWasAskedFor) {
+TEST(RequestGuard, AllowedHost_Served) {
   EXPECT_TRUE(may_be_served({"robot.lan:80", "http://robot.lan:80", "same-origin"}, {"robot.lan"}));
   EXPECT_FALSE(may_be_served({"robot.lan:80", "http://example.org", "cross-site"}, {"robot.lan"}));
   EXPECT_FALSE(may_be_served({"other.lan", "", ""}, {"robot.lan"}));
