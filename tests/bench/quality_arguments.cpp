@@ -65,7 +65,8 @@ MatcherOptions custom_preset(const std::string& base, const std::vector<std::str
     throw std::runtime_error("--base " + base + ": allowed are " + joined(kMatcherPresets));
   }
   for (const std::string& setting : settings) apply(*options, setting);
-  if (const std::optional<std::string> problem = problem_with(*options)) throw std::runtime_error(to_string(*problem));
+  if (const std::optional<std::string> problem = problem_with(*options))
+    throw std::runtime_error(to_string(*problem));
   return *options;
 }
 

@@ -219,7 +219,8 @@ TEST_F(ServiceTest, AFileThatCannotWorkChangesNothingAndIsSaid) {
   ASSERT_TRUE(systemd.wait_for("READY=1", std::chrono::seconds(60), tick));
   const std::map<std::string, std::string> bad{
       {"matcher: {windw: 3}\n", "stereod.yaml:3: matcher.windw: is not a known key"},
-      {"matcher: {isa: " + foreign_isa() + "}\n", "stereod.yaml:3: matcher.isa: isa " + foreign_isa() + " is not available on this CPU"},
+      {"matcher: {isa: " + foreign_isa() + "}\n",
+       "stereod.yaml:3: matcher.isa: isa " + foreign_isa() + " is not available on this CPU"},
       {"lcm: {rows_per_message: 999}\n", "stereod.yaml:3: lcm.rows_per_message: found 999"},
       {"calibration: gone.yaml\n", "gone.yaml"},
       {"lcm: {url: 'udpm://239.255.76.67:7667?ttl=9'}\n", "no such network"},
