@@ -188,7 +188,7 @@ TEST(RosFiles, MistakesAreNamed) {
   EXPECT_THAT(spoiled("640", "320"), HasSubstr("their images differ in size"));
   EXPECT_THAT(spoiled("321.75", "32175"), HasSubstr("0.0 % of the left rectified image"));
   EXPECT_THAT(file_error_of([&] { read_ros(directory / "none.yaml", directory / "r.yaml"); }),
-              HasSubstr("no such file"));
+              HasSubstr("the file does not exist"));
 }
 
 constexpr const char* kKalibr = R"(cam0:
