@@ -70,7 +70,7 @@ struct MatcherOptions {
 /// pixel). Semi-global: `robust` (no false matches), `dense` (the same, filled), `fine` (for thin objects).
 inline constexpr std::array<std::string_view, 5> kMatcherPresets{"robust", "dense", "fine", "fast", "thesis"};
 
-/// Returns the options of a preset, nothing if there is none of this name.
+/// Returns the options of a preset, nothing if the name is unknown.
 std::optional<MatcherOptions> matcher_preset(std::string_view name);
 
 /// Returns the first option that has a value it cannot have, alone or with the others; nothing if the options can be

@@ -93,13 +93,14 @@ void declare(CLI::App& app, Flags& flags) {
       "settings of the matcher, instead of those in --config: " + range_text(matcher_preset_option()));
   app.add_option("--config", flags.config,
                  "take the settings of matcher and rectification from a stereod.yaml");
-  app.add_option("--threads", flags.threads, "1 to 256; default: one for each CPU");
+  app.add_option("--threads", flags.threads, "number of threads [1…256], default one for each CPU");
   app.add_option("--calibration", flags.calibration, "rectify both images first, by this calibration.yaml");
   app.add_option("--rectified", flags.rectified, "write the two images that were matched: .png .png")
       ->expected(2);
   app.add_option("--ground-truth", flags.ground_truth, "compare with the true disparities: image or .pfm");
   app.add_option("--gt-scale", flags.gt_scale, "gray levels per pixel of disparity in that image; default 1");
-  app.add_option("--repeat", flags.repeat, "match so many times more and print the median time");
+  app.add_option("--repeat", flags.repeat,
+                 "additional measured runs; the median time is printed [1…1000000]");
   declare_table(app, matcher_option_table(), flags.matcher, "Matcher (defaults: those of the preset)");
   declare_table(app, rectify_options(), flags.rectify, "Rectification (with --calibration)");
 }

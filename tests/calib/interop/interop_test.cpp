@@ -189,7 +189,7 @@ TEST(RosFiles, Mistake_Named) {
   EXPECT_THAT(spoiled("640", "320"), HasSubstr("image sizes differ"));
   EXPECT_THAT(spoiled("321.75", "32175"), HasSubstr("0.0 % of the left rectified image"));
   EXPECT_THAT(file_error_of([&] { read_ros(directory / "none.yaml", directory / "r.yaml"); }),
-              HasSubstr("no such file"));
+              HasSubstr("the file does not exist"));
 }
 
 constexpr const char* kKalibr = R"(cam0:

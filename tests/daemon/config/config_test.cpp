@@ -193,7 +193,7 @@ TEST_F(ConfigFile, MissingFileAndDirectory_Distinguished) {
             directory_.path().string() + ": is a directory; a file is needed");
 }
 
-// Any reason but that there is none would do; a link to itself is one that root cannot pass either.
+// A link to itself cannot be followed, by root neither.
 TEST_F(ConfigFile, UnreachableFile_NotCalledMissing) {
   const std::filesystem::path link = directory_.path() / "link.yaml";
   std::filesystem::create_symlink("link.yaml", link);
