@@ -38,7 +38,8 @@ struct LivePage::Impl {
   }
 };
 
-LivePage::LivePage(int port) : impl_(new Impl{.mutex = {}, .left = {}, .right = {}, .server{{port, {}}}}) {
+LivePage::LivePage(int port)
+    : impl_(new Impl{.mutex = {}, .left = {}, .right = {}, .server = LocalServer({port, {}})}) {
   LocalServer& server = impl_->server;
   server.get_text("/", kLivePageHtml, "text/html; charset=utf-8");
   server.get_text("/live.css", kLivePageCss, "text/css; charset=utf-8");

@@ -104,7 +104,8 @@ void add_if_known(TextTable& table, const std::string& label, bool is_known, con
 Lines load(const status_t& s) {
   TextTable table({{.min_width = 16}, {.align = Align::kRight, .min_width = 7}, {}});
   table.add_row({"frames in", fixed(s.fps_in, 1), "/s"});
-  table.add_row({"frames out", fixed(s.fps_out, 1), s.paced != 0 ? "/s, paced" : "/s"});
+  table.add_row({"frames out", fixed(s.fps_out, 1), "/s"});
+  table.add_row({"pacing", s.paced != 0 ? "on" : "off"});
   table.add_row({"measured", fixed(100 * s.measured_fraction, 1), "%"});
   table.add_row({"filled", fixed(100 * s.filled_fraction, 1), "%"});
   add_if_known(table, "no evidence", s.no_evidence_fraction >= 0, fixed(100 * s.no_evidence_fraction, 1),

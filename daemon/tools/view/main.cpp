@@ -24,7 +24,7 @@ int run(int argc, char** argv) {
       "LCM URL (default: LCM_DEFAULT_URL of the environment, else " + std::string(kDefaultLcmUrl) + ")");
   app.add_option("--prefix", tap.prefix, "prefix of the channels, lcm.prefix of the daemon")
       ->capture_default_str();
-  app.add_option("--port", server_options.port, "[0…65535] port of the page on 127.0.0.1; 0: any free port")
+  app.add_option("--port", server_options.port, "port of the page on 127.0.0.1; 0: any free port")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   app.add_option("--allow-host", server_options.allowed_hosts,

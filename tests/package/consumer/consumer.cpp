@@ -1,4 +1,5 @@
-// Ends with 0 once three whole frames have come, with 1 after twenty seconds without them.
+// SPDX-License-Identifier: BSD-3-Clause
+// Receives three complete frames. Exit status 0, or 1 after 20 s without them.
 #include <stereod/stereod_client.h>
 #include <stereod/frame_t.hpp>
 

@@ -138,7 +138,7 @@ TEST(StatusTable, Status_ShowsEveryField) {
                                "fmt-right",  "note-left",
                                "note-right", "42 s ago: pulled out",
                                "3.21",       "12.3",
-                               "9.1",        "paced"}) {
+                               "9.1",        " on\n"}) {
     EXPECT_NE(text.find(expected), std::string::npos) << expected << " is missing from\n" << text;
   }
   EXPECT_EQ(lines[0].substr(0, 5), "state");
