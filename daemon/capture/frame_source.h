@@ -24,10 +24,8 @@ struct Frame {
 /// Takes a buffer back when the last user of a frame is done.
 class BufferOwner {
  public:
+  virtual ~BufferOwner() = default;
   virtual void give_back(int buffer) noexcept = 0;
-
- protected:
-  ~BufferOwner() = default;
 };
 
 /// A frame on loan. Its memory is valid until the lease is destroyed, which gives the buffer back to its

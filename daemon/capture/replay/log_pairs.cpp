@@ -17,10 +17,10 @@
 namespace stereod {
 namespace {
 
-constexpr std::int64_t kMaxSkew_us = 500'000;  // between the exposures of a pair
+constexpr std::int64_t kMaxSkew = 500'000;  // [µs] between the exposures of a pair
 constexpr std::int64_t kMaxUtime =
-    4'102'444'800'000'000;  // year 2100; keeps differences in ns from overflowing
-constexpr std::uint64_t kMax_GiB = sizeof(void*) < 8 ? 1 : 4;  // all images are kept in memory
+    4'102'444'800'000'000;  // [µs] year 2100; differences in ns fit into 64 bits
+constexpr std::uint64_t kMaxGibibytes = sizeof(void*) < 8 ? 1 : 4;  // all images are kept in memory
 
 /// Returns the image of a message, nothing if the bytes are not an 8-bit gray image.
 std::optional<LoggedImage> decode_image(const std::vector<std::byte>& data) {
@@ -60,7 +60,7 @@ LoggedPairs pair_nearest(std::vector<LoggedImage> left, std::vector<LoggedImage>
   std::vector<std::pair<std::size_t, std::size_t>> found;
   for (std::size_t i = 0; i < left.size() && !right.empty(); ++i) {
     const std::size_t partner = nearest_to(right, left[i].utime);
-    const bool near = std::abs(right[partner].utime - left[i].utime) <= kMaxSkew_us;
+    const bool near = std::abs(right[partner].utime - left[i].utime) <= kMaxSkew;
     if (near && nearest_to(left, right[partner].utime) == i) found.emplace_back(i, partner);
   }
   LoggedPairs result;
@@ -86,8 +86,8 @@ LoggedPairs read_pairs(const std::filesystem::path& file, const std::string& pre
       continue;
     }
     bytes += event.data.size();
-    if (bytes > kMax_GiB << 30) {
-      throw FileError(file.string() + ": the log has more than " + std::to_string(kMax_GiB) +
+    if (bytes > kMaxGibibytes << 30) {
+      throw FileError(file.string() + ": the log has more than " + std::to_string(kMaxGibibytes) +
                       " GiB of raw images; record shorter logs with 'stereo-tap record --seconds'");
     }
     (is_left ? left : right).push_back(std::move(*image));

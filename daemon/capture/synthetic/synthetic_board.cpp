@@ -57,11 +57,11 @@ SyntheticBoard::SyntheticBoard(const BoardShape& shape, const BoardPlace& place,
     : shape_(shape), to_board_(transposed(place.rotation)), origin_m_(place.origin_m), focal_px_(focal_px) {}
 
 SceneHit SyntheticBoard::hit(const SceneRay& ray, SceneHit behind) const {
-  constexpr double kNearest_m = 0.05;  // nearer points are not visible
+  constexpr double kMinDepth = 0.05;  // [m] nearer points are not visible
   const Vector3 direction = to_board_ * Vector3{ray.x, ray.y, 1};
   const Vector3 origin = to_board_ * Vector3{origin_m_.x - ray.origin_x, origin_m_.y, origin_m_.z};
   const double depth = origin.z / direction.z;
-  if (!(depth > kNearest_m && depth < behind.depth)) return behind;
+  if (!(depth > kMinDepth && depth < behind.depth)) return behind;
   const double u = (direction.x * depth - origin.x) / shape_.square_m,
                v = (direction.y * depth - origin.y) / shape_.square_m;
   if (!(u > -2 && v > -2 && u < shape_.columns + 1 && v < shape_.rows + 1)) return behind;

@@ -61,14 +61,14 @@ Calibration render_room(SyntheticSource::Loop& loop, const SyntheticOptions& opt
 // Image 0 shows no board. Then two images for each place: on the way there, and at rest.
 Calibration render_board(SyntheticSource::Loop& loop, const SyntheticOptions& options) {
   constexpr int kImages = 1 + 2 * kBoardPlaces;
-  constexpr double kBaseline_m = 0.06;
-  const SyntheticScene scene(options.size, kImages, kBaseline_m, false);
+  constexpr double kBaseline = 0.06;  // [m]
+  const SyntheticScene scene(options.size, kImages, kBaseline, false);
   const double focal = scene.calibration().left.projection.fx;
   // Slightly less than the field of view: the cameras do not look in exactly the same direction.
   const double half_width = 0.4 * options.size.width / focal,
                half_height = 0.47 * options.size.height / focal;
   const std::vector<BoardPlace> places =
-      varied_places(kPracticeBoard, half_width, half_height, kBaseline_m, kBoardPlaces);
+      varied_places(kPracticeBoard, half_width, half_height, kBaseline, kBoardPlaces);
   render_all(loop, kImages, [&](int camera, int image) {
     const auto render = [&](const SyntheticBoard* board) {
       return camera == 0 ? scene.render_left(image, board) : scene.render_right(image, board);

@@ -31,7 +31,7 @@ class CameraStream final : public BufferOwner {
  public:
   /// @p system must outlive the stream. @throws std::bad_alloc
   CameraStream(VideoSystem& system, Size size);
-  ~CameraStream();
+  ~CameraStream() override;
   CameraStream(const CameraStream&) = delete;
   CameraStream& operator=(const CameraStream&) = delete;
 
