@@ -18,6 +18,7 @@ build_packages=(
 test_packages=(libgtest-dev libgmock-dev libopencv-dev poppler-utils libcpp-httplib-dev nftables chromium
   liblcm-java libjchart2d-java default-jre default-jdk-headless xvfb xdotool  # stereod-spy
   ccache                       # the tests are built in several ways, and again
+  clang-format-14 clang-tidy-14  # the suites format and tidy
 )
 # The Aloe photographs. Some mirrors do without documentation, and so can we.
 optional_packages=(opencv-doc)

@@ -1,24 +1,25 @@
 #!/usr/bin/env bash
-# Builds the fuzz targets with clang's libFuzzer and runs each for some seconds, from nothing or from what an earlier run
-# left in build/corpus.
-#   tests/fuzz/run.sh [SECONDS]        for each target; default 20
-# Skips, and says so, where there is no clang++-14.
+# SPDX-License-Identifier: BSD-3-Clause
+# Builds the fuzz targets with clang's libFuzzer and runs each for some seconds. The corpus of earlier runs is in build/corpus.
+#   tests/fuzz/run.sh [SECONDS | --build]       SECONDS: for each target, default 20; --build: only build
+# Ends with 77, skipped, where there is no clang++-14.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 seconds=${1:-20}
-[[ $seconds =~ ^[1-9][0-9]*$ ]] || {
-  echo "usage: tests/fuzz/run.sh [SECONDS]" >&2
+[[ $seconds =~ ^[1-9][0-9]*$ || $seconds == --build ]] || {
+  echo "usage: tests/fuzz/run.sh [SECONDS | --build]" >&2
   exit 1
 }
 command -v clang++-14 >/dev/null || {
-  echo "fuzz/run.sh: skipped, there is no clang++-14 here: toolchain/install-deps.sh --emulation"
-  exit 0
+  echo "fuzz/run.sh: skipped, clang++-14 is missing: toolchain/install-deps.sh --emulation installs it"
+  exit 77
 }
 
 targets=(fuzz_matcher fuzz_camera_frame fuzz_client)
 cmake --preset fuzz -DSTEREOD_CORE_ONLY=OFF
 cmake --build build/fuzz -j "$(nproc)" --target "${targets[@]}"
+[[ $seconds != --build ]] || exit 0
 for target in "${targets[@]}"; do
   mkdir -p "build/corpus/$target"
   log=build/corpus/$target.log

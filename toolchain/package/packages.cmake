@@ -115,6 +115,14 @@ if(TARGET stereo-calibrate)
   install_bill(stereo-calibrate "libcli11-dev" stereo-calibrate)
 endif()
 
+# What the packages hold, for a build that makes them and nothing else.
+add_custom_target(packaged DEPENDS ${programs} stereod_client)
+foreach(target stereo-calibrate stereod-spy stereod_python_types)
+  if(TARGET ${target})
+    add_dependencies(packaged ${target})
+  endif()
+endforeach()
+
 # --- cpack
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME stereod)

@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Runs clang-tidy 14 with the checks of .clang-tidy on core/, daemon/ and calib/; fails on what it finds, and where it is
+# missing.
+#   tests/tidy/run.sh [FILE…]        FILE: only these, one by one
+#
+# A run parses each library as one unit (a unity build): headers, which take most of the time, are parsed once a library. A
+# library whose sources clash in one unit is checked source by source. What passed is remembered by the hash of the
+# preprocessed unit, the checks and the tool in ~/.cache/stereod/tidy, so unchanged units cost a preprocessor run.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+tool=clang-tidy-14
+build=build/tidy
+cache=${XDG_CACHE_HOME:-$HOME/.cache}/stereod/tidy
+# In a unit, .cpp files are included, which two checks are about.
+unit_options=(--checks=-bugprone-suspicious-include '--header-filter=(core|daemon|calib)/.*\.(h|cpp)$')
+
+# --- one unit, called by xargs: its file and its command
+if [[ ${1:-} == --unit ]]; then
+  file=$2 command=$3
+  mapfile -t words < <(xargs -n 1 <<<"$command")
+  flags=()
+  for ((i = 1; i < ${#words[@]}; ++i)); do
+    case ${words[i]} in
+      -o) i=$((i + 1)) ;;
+      -c | "$file" | */c++ | */g++) ;;
+      *) flags+=("${words[i]}") ;;
+    esac
+  done
+  # Comments are part of the unit: NOLINT is one.
+  hash=$({ "$tool" --version && cat .clang-tidy && printf '%s\n' "${unit_options[@]}" "${flags[@]}" &&
+    g++ "${flags[@]}" -E -P -C -dD "$file"; } | sed "s#$PWD#.#g" | sha256sum | cut -c -40) || exit 1
+  if [[ -e $cache/$hash ]]; then
+    touch "$cache/$hash"
+    exit 0
+  fi
+  options=("${unit_options[@]}")
+  sources=("$file")
+  log=$(mktemp)
+  trap 'rm -f "$log"' EXIT
+  check() { "$tool" --quiet --config-file=.clang-tidy "${options[@]}" "$1" -- "${flags[@]}" -Wno-unknown-warning-option >"$log" 2>&1; }
+  status=0
+  check "$file" || status=1
+  if [[ $status -ne 0 && $file == */Unity/* ]] && grep -q 'clang-diagnostic-error' "$log"; then
+    status=0
+    options=()
+    mapfile -t sources < <(sed -n 's/^#include "\(.*\)"$/\1/p' "$file")
+    : >"$log.all"
+    for source in "${sources[@]}"; do
+      check "$source" || { status=1 && cat "$log" >>"$log.all"; }
+    done
+    mv "$log.all" "$log"
+  fi
+  if [[ $status -ne 0 ]]; then
+    grep -vE 'warnings? (and [0-9]+ errors? )?generated\.$|^Suppressed |^Use -header-filter' "$log"
+    exit 1
+  fi
+  touch "$cache/$hash"
+  exit 0
+fi
+
+command -v "$tool" >/dev/null || {
+  echo "tidy: $tool is missing: toolchain/install-deps.sh --tests installs it." >&2
+  exit 1
+}
+cmake --preset tidy >/dev/null && cmake --build "$build" --target stereod_lcmtypes_generate >/dev/null
+if [[ $# -gt 0 ]]; then
+  exec "$tool" -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option "$@"
+fi
+included=$(grep -rnE '#include ".*\.cpp"' core daemon calib || true)
+[[ -z $included ]] || { echo "tidy: sources are not included: $included" >&2 && exit 1; }
+
+mkdir -p "$cache"
+find "$cache" -type f -mtime +30 -delete
+begin=$SECONDS
+# CMake writes one key a line. The longest units first.
+awk '
+  function value(line) { sub(/^ *"[a-z]+": "/, "", line); sub(/",?$/, "", line); gsub(/\\"/, "\"", line); gsub(/\\\\/, "\\", line); return line }
+  /^ *"command":/ { command = value($0); sub(/^[^ ]*ccache /, "", command) }
+  /^ *"file":/ { file = value($0); print file "\t" command }' "$build/compile_commands.json" >"$build/units"
+failed=0
+while IFS=$'\t' read -r file command; do
+  size=$(sed -n 's/^#include "\(.*\)"$/\1/p' "$file" | grep -c '\.cpp$' || true)
+  printf '%s\t%s\t%s\n' "$size" "$file" "$command"
+done <"$build/units" | sort -rn | cut -f 2- | tr '\t' '\n' | tr '\n' '\0' |
+  xargs -0 -n 2 -P "${JOBS:-$(nproc)}" bash "$0" --unit || failed=1
+[[ $failed -eq 0 ]] || { echo "tidy: FAILED" && exit 1; }
+echo "tidy: $(wc -l <"$build/units") units without findings, in $((SECONDS - begin)) s"
