@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Shows stereod at work: installs what it needs, builds it, lets it match a pair of photographs and then a moving
 # rendered scene, receives the disparities over LCM, and leaves colored depth images in demo-output/.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Prints this machine's apt sources of Debian 12 itself, without its updates, one a line, for roots and sysroots made with
 # mmdebstrap or apt. Other sources need not have every architecture, nor may their packages get in; and what is built against
 # a release's libraries runs with their updates too. Fails if there are none.

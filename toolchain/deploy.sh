@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Brings stereod onto a robot: builds the package for the robot's architecture, copies it there, installs it, starts the service
 # anew, and shows what it says.
 #   toolchain/deploy.sh [USER@]HOST [SSH-OPTION…]       for example: toolchain/deploy.sh robot@192.168.1.20 -p 2222

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Cross-compiles for 32-bit x86 with Debian's g++-i686-linux-gnu; programs run under qemu-user as on an Atom N270, the
 # first generation, which has SSSE3 and nothing newer.
 set(CMAKE_SYSTEM_NAME Linux)

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs with apt what building stereod and running its demo takes; with --tests also what its tests take, with
 # --emulation also what it takes to run them on other CPUs, to fuzz and to count instructions, with --packages also what it
 # takes to build for other architectures and to try the packages.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Unpacks what stereod is built against for a foreign machine: Debian's libraries and headers of that architecture, from
 # this machine's own apt sources, and a list of their packages, from which dependencies are told when packages are made.
 # Anybody may: apt works in a directory of its own, and nothing is installed.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs a command in a network of its own: nothing but loopback, which carries multicast. LCM works there on every
 # machine, nothing leaves it, and nobody else's LCM traffic is disturbed. Needs no privileges, only a kernel that
 # lets users make namespaces.

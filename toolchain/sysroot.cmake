@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Included by the toolchain files of foreign architectures: builds against the sysroot that make-sysroot.sh makes, if
 # STEREOD_SYSROOT names one; without it only core/ can be built, with what the cross compiler brings along.
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES STEREOD_SYSROOT)

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # How many rows are lost, and how late a frame is, for 1, 2 and 4 consumers on the daemon's machine, usual and raised socket
 # buffers, and several rows a message. Prints two tables for docs/loss.md and docs/latency.md. The stereod of the build
 # directory renders its scene at 640×480, 30 images a second; the consumers are stereo-tap check. Wants an idle machine.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # How many images a second stereo-view's page shows over a slow link: stereod, stereo-view and a headless Chromium in a
 # network namespace whose loopback, which carries nothing but the page, is limited to so many Mbit/s (0: not limited).
 #

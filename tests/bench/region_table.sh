@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # What a part of the image saves: the table of docs/consumers.md. stereod renders its scene at 640×480, 30 images a
 # second, with one worker; stereo-tap listens. Wants an idle machine.
 #

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Everything for other architectures: builds it against Debian's libraries of that architecture, runs its tests under
 # qemu-user, makes the packages, and compares what they depend on with the ones made for this machine.
 #   tests/cross/run.sh [ARCH...]        arm64, armhf, i386; all of them, if none is named

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # stereod on one host, a receiver on another: two network namespaces with a cable between them. What is lost on the way is
 # measured with a time to live of 1; with 0 nothing may get out; and with the firewall line of docs/service.md nothing does.
 #

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs tests of core/ on CPUs that this machine is not: the matcher's on x86 generations, all of them on foreign machines, under
 # qemu-user. Each must choose its kernel by itself, and none may meet an instruction that it does not have.
 #   tests/emulated/run.sh [NAME...]     only these rows of the table below

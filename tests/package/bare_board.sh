@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # docs/from-bare-board.md, word for word: the commands are taken from the page itself. The board is a bare Debian 12 root
 # with an ssh server and your key, booted with systemd in a network of its own; the developer's machine is this one.
 # A root has no cameras: in their place the editor that the page calls writes down a rendered scene. With cameras the

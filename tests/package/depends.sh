@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Two packages of the same name, made for two architectures, depend on the same.
 #   depends.sh PACKAGE.deb PACKAGE.deb
 set -euo pipefail

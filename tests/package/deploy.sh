@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # toolchain/deploy.sh, tried against a second machine of the test's own: a bare Debian 12 root with an ssh server on loopback,
 # first without systemd, then booted with it, in a network of its own.
 # Ends with 77, skipped, for who is not root or lacks a tool. Builds the package.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # What stereod takes of a small board: the size of its stripped binary and its resident memory at 640×480, which must stay below
 # what is promised; and, only told, the time from its start to the first published pair and the CPU's share while it waits for
 # cameras.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Every option that a program's --help names, its commands' included, is in its manual page.
 #   manual_pages.sh FOLDER-OF-PROGRAMS
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Two builds of the same commit, in two directories and under other circumstances (time zone, language, umask, user's home), give
 # the same packages byte for byte.
 #   reproducible.sh [COMMIT [FOLDER-OF-DEBS]]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Bare Debian 12 roots for the tests that source this. What is made once is kept in ${XDG_CACHE_HOME:-~/.cache}/stereod/roots.
 test=$(basename "$0" .sh)
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/stereod/roots

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The packages in bare Debian 12 roots: installed, removed, purged, installed again, upgraded; and a program of somebody
 # else's, built against libstereod-dev, that receives frames. Then lintian looks at them.
 #   roots.sh [FOLDER-OF-DEBS]      without one the packages are made (preset package)

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The units: how exposed systemd finds the services, that the template is the service under another name, and that the
 # example for real time stays as strict as it can. Ends with 77, skipped, where there is no systemd-analyze.
 set -euo pipefail

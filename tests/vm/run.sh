@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Tests with a real kernel: Debian's kernel and systemd in a virtual machine, with webcams on uvcvideo. All scenarios run in
 # one machine, one after the other. Says what is skipped where QEMU or the packages cannot be had.
 #

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Prepares, from Debian packages alone, what the tests in a virtual machine boot: Debian's kernel with the modules they
 # need, v4l2loopback built for it, and a root file system with systemd. All of it stays in a cache between runs:
 #

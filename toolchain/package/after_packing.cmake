@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Read by cpack when the packages are made. The parts of a package bear the mode that cpack's umask gave to its temporary
 # files, which nobody reads; here all get the same, so that it makes no difference.
 execute_process(COMMAND ${CMAKE_COMMAND} -E env LC_ALL=C sed -i -E

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What is installed, and the three Debian packages made of it by cpack: stereod (the daemon and the tools beside it),
 # stereo-calibrate (the only one that needs OpenCV) and libstereod-dev (for programs that receive what stereod sends).
 include(GNUInstallDirs)

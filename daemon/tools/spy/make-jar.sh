@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Packs classes into a jar that is the same however often it is made: in the order of their names, with one date.
 #   make-jar.sh JAR-PROGRAM FOLDER-OF-CLASSES OUTPUT
 set -euo pipefail

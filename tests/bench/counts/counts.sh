@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Counts what the matcher costs where a clock would wander: instructions and first-level cache misses for every
 # instruction set, and the cycles that llvm-mca's models of small boards' CPUs give for the instructions executed.
 # Prints tables. What is counted is the difference of a run that matches three times and one that matches once.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What the scenarios share. Source it first.
 set -euo pipefail
 

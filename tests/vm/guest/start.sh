@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs the scenarios that the host has put into /share, one after the other, tells the host how each went, and turns the
 # machine off.
 export TERM=dumb PATH=/share/bin:/usr/sbin:/usr/bin:/sbin:/bin

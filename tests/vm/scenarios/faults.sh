@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shows: ten random faults in a row: each seen in the status, streaming after each, memory and descriptors unchanged
 # seconds: 500
 . /share/guest/lib.sh

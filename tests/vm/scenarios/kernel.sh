@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shows: the simulated cameras are webcams to uvcvideo: names, formats, controls, frames, exposure
 # seconds: 120
 . /share/guest/lib.sh

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shows: YUYV through v4l2loopback: rows byte-identical to stereo-match on the same pairs; RGB through libv4l2's conversion
 # seconds: 120
 . /share/guest/lib.sh

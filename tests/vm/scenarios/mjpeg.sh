@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shows: stereod on two webcams, MJPEG 640x480 at 30/s: pairs, rows over LCM, the cameras' table, one exposure for both
 # seconds: 200
 # alone: yes

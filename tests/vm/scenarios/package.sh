@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shows: the package under systemd: install, start, rows, upgrade over a running service, remove, purge
 # seconds: 600
 # needs: package

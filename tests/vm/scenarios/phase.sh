@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shows: two cameras that start 16 ms apart are brought into phase by restarting one; that they drift apart is seen
 # seconds: 180
 . /share/guest/lib.sh

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shows: unplug left, unplug both, swap ports, freeze 3 s: said with its reason, and streaming again with nothing left over
 # seconds: 240
 . /share/guest/lib.sh

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shows: the service under systemd: start, rows, reload, unplug and replug, watchdog, stop; an Atom without AVX
 # seconds: 900
 . /share/guest/lib.sh

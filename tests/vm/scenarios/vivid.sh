@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shows: the kernel's test driver vivid: every uncompressed format, controls, errors that it injects, lost frames, a disconnect
 # seconds: 200
 . /share/guest/lib.sh

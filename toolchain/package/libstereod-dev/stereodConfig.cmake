@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # find_package(stereod): the target stereod::lcmtypes has the C++ classes of stereod's messages
 # (#include <stereod/frame_t.hpp>) and LCM, which has no CMake files of its own in Debian; the target stereod::client has
 # the client library (#include <stereod/stereod_client.h>), C++17.

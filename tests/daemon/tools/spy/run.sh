@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # stereod-spy on a screen of its own, and the examples in Java and Python, with a real stereod.
 #
 #   run.sh BIN-DIRECTORY SHARE-DIRECTORY [SCREENSHOT.png]     exit status 77: it cannot be done here
