@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Shows stereod at work: installs what it needs, builds it, lets it match a pair of photographs and then a moving
-# rendered scene, receives the disparities over LCM, and leaves colored depth images in demo-output/.
+# Shows stereod at work: installs its dependencies, builds it, matches a pair of photographs and then a moving rendered
+# scene, receives the disparities over LCM, and writes colored depth images to demo-output/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -14,7 +14,7 @@ die() {
   exit 1
 }
 
-# Stops the daemon, by its own process and no other; also when the demo fails or is interrupted.
+# Stops the daemon by its process id; also when the demo fails or is interrupted.
 stop_daemon() {
   local pid=$daemon_pid
   daemon_pid=
@@ -23,21 +23,21 @@ stop_daemon() {
   wait "$pid"
 }
 
-# Builds in the release build if there is one, else in one of its own that does without the tests and OpenCV.
+# Builds in build/release if it exists, else in build/demo, without tests and OpenCV.
 build() {
   local log=$output/build.log dir=build/release
   if [[ ! -f $dir/build.ninja ]]; then
     dir=build/demo
     cmake -S . -B "$dir" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTEREOD_TESTS=OFF >"$log" 2>&1 ||
-      { tail -n 30 "$log" >&2; die "cmake failed; all it said is in $log."; }
+      { tail -n 30 "$log" >&2; die "cmake failed; the whole output is in $log."; }
   fi
   say "Building in $dir (a few minutes the first time; log: $log)"
   cmake --build "$dir" --target stereod stereo-tap -j "$(nproc)" >>"$log" 2>&1 ||
-    { tail -n 30 "$log" >&2; die "the build failed; all it said is in $log."; }
+    { tail -n 30 "$log" >&2; die "the build failed; the whole output is in $log."; }
   bin=$dir/bin
 }
 
-# Decides which network the show runs in, says why, and goes there.
+# Chooses the network of the show, prints the reason, and enters it.
 enter_network() {
   if toolchain/own-network.sh --possible; then
     say "Network: one of its own (a namespace), so that nothing leaves this machine and no other LCM traffic is disturbed"
@@ -52,7 +52,7 @@ enter_network() {
   exit 1
 }
 
-# One of the Aloe photographs of Debian's opencv-doc, unpacked if need be; prints where it is.
+# Prints the path of one of the Aloe photographs of Debian's opencv-doc, unpacked if necessary.
 aloe() {
   local file=/usr/share/doc/opencv-doc/examples/data/$1
   if [[ -f $file ]]; then
@@ -80,7 +80,7 @@ matcher:
 YAML
 }
 
-# Runs the daemon on configuration $2, receives for a few seconds and keeps a image as demo-output/$1.png.
+# Runs the daemon on configuration $2, receives for a few seconds and keeps an image as demo-output/$1.png.
 show() {
   local name=$1 config=$2 scratch=$output/$1-frames log=$output/$1.log
   rm -rf "$scratch"
@@ -90,7 +90,7 @@ show() {
   # The first frame takes as long as the images take to load.
   if ! "$bin/stereo-tap" save --frames 1 --out "$scratch" --timeout 60 >/dev/null; then
     cat "$log" >&2
-    die "nothing came from stereod; above is what it said."
+    die "no frame was received from stereod; its output is above."
   fi
   local received=0
   "$bin/stereo-tap" check --seconds 4 || received=$?
@@ -102,7 +102,7 @@ show() {
   mv "$scratch"/*.png "$output/$name.png"
   mv "$scratch"/*.pfm "$output/$name.pfm"
   rmdir "$scratch"
-  stop_daemon || { cat "$log" >&2; die "stereod did not stop cleanly; above is what it said."; }
+  stop_daemon || { cat "$log" >&2; die "stereod did not stop cleanly; its output is above."; }
   say "Disparity in colors: $PWD/$output/$name.png (in numbers: $output/$name.pfm)"
 }
 
@@ -110,7 +110,7 @@ run_show() {
   trap 'stop_daemon || true' EXIT
   # stereo-tap ends cleanly on Ctrl-C, which the shell takes for a reason to go on.
   trap 'exit 130' INT TERM
-  # A file may say otherwise; this is for those that leave it open.
+  # The default for configurations that set no lcm.url.
   export LCM_DEFAULT_URL='udpm://239.255.76.67:7667?ttl=0'
   local left right
   if left=$(aloe aloeL.jpg) && right=$(aloe aloeR.jpg); then

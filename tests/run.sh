@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and runs suites of tests, and installs what they need.
-#   tests/run.sh                       what a change needs at least: the release build's tests, formatting
+#   tests/run.sh                       the minimum for every change: formatting and the release build's tests
 #   tests/run.sh SUITE [ARGUMENT…]…    the suites named, for example: tests/run.sh asan, tests/run.sh vm replug, tests/run.sh tests -R Config
-#   tests/run.sh --all                 everything that must hold before a change is taken (.ci/run)
+#   tests/run.sh --all                 everything that must hold before a change is accepted (.ci/run)
 #   tests/run.sh --extended            what --all leaves out: other architectures, bare machines, reproducibility; keeps
 #                                      a table of what ran on which commit, with what result, in build/extended.md
 #   tests/run.sh --list                the suites

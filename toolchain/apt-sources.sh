@@ -3,7 +3,7 @@
 # Prints this machine's apt sources of Debian 12 itself, without its updates, one a line, for roots and sysroots made with
 # mmdebstrap or apt. Other sources need not have every architecture, nor may their packages get in; and what is built against
 # a release's libraries runs with their updates too. Fails if there are none.
-#   apt-sources.sh [FOLDER]      FOLDER: instead of /etc/apt
+#   apt-sources.sh [DIRECTORY]      DIRECTORY: instead of /etc/apt
 set -euo pipefail
 directory=${1:-/etc/apt}
 
@@ -52,7 +52,7 @@ lines() {
   done
 }
 
-# What apt knows to come from somebody else, if only by the list of packages it has fetched.
+# Prints the third-party sources that apt knows, by the package lists it has fetched.
 others() {
   apt-get indextargets --format '$(ORIGIN) $(REPO_URI)' 'Created-By: Packages' 2>/dev/null |
     awk '$1 ~ /^[$]/ || ($1 == "Debian" && NF == 2) { next } { print $NF }' | sort -u

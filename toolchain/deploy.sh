@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Brings stereod onto a robot: builds the package for the robot's architecture, copies it there, installs it, starts the service
-# anew, and shows what it says.
+# Deploys stereod to a robot: builds the package for the robot's architecture, copies and installs it, restarts the service
+# and prints its status and log.
 #   toolchain/deploy.sh [USER@]HOST [SSH-OPTION…]       for example: toolchain/deploy.sh robot@192.168.1.20 -p 2222
-# Wanted there: Debian 12, ssh with a key, and root or sudo without a password.
+# The robot needs: Debian 12, ssh with a key, and root or sudo without a password.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -16,7 +16,7 @@ host=${1:-}
 [[ -n $host && $host != -* ]] || die "usage: toolchain/deploy.sh [USER@]HOST [SSH-OPTION…]"
 shift
 command -v ssh >/dev/null || die "there is no ssh here: apt install openssh-client"
-# Runs a command there. answer: its last lines, LINES of them: a shell that greets whoever comes does so first.
+# remote COMMAND: runs it on the robot. answer LINES COMMAND: prints the last LINES of its output; a login greeting comes first.
 remote() { ssh -o BatchMode=yes -o ConnectTimeout=10 "${ssh_options[@]}" "$host" "$@"; }
 answer() {
   local lines=$1 said
@@ -37,7 +37,7 @@ answers=$(answer 3 "$ask" 2>"$errors") || {
     die "$host is not the machine that ssh knows by that name, or none it knows: log in once by hand (ssh $host) and see what it says."
   die "cannot log in at $host by ssh: $why. Is it on, and does it have your key (ssh-copy-id $host)?"
 }
-{ read -r system release && read -r arch && read -r rights; } <<<"$answers" || die "$host answers nothing that makes sense."
+{ read -r system release && read -r arch && read -r rights; } <<<"$answers" || die "$host gave no usable answer."
 
 [[ $system == debian && $release == 12 ]] ||
   die "$host runs $system ${release:-of no version}, but the package is made for Debian 12, whose libraries it needs."
@@ -70,7 +70,7 @@ package=$(ls "$build"/stereod_*_"$arch".deb)
 
 echo "deploy: installing $(basename "$package"), $(($(stat -c %s "$package") / 1024)) KiB"
 directory=$(answer 1 'mktemp -d /tmp/stereod-XXXXXX') || die "no directory can be made in /tmp of $host; is its disk full?"
-[[ $directory =~ ^/tmp/stereod-[A-Za-z0-9]{6}$ ]] || die "$host answers '$directory' to mktemp, which makes no sense."
+[[ $directory =~ ^/tmp/stereod-[A-Za-z0-9]{6}$ ]] || die "$host answers '$directory' to mktemp; expected /tmp/stereod-XXXXXX."
 remote "cat >$directory/stereod.deb || { rm -rf $directory; false; }" <"$package" ||
   die "the package cannot be copied to $host; is its disk full?"
 # One's own configuration stays; a changed one of the package is laid beside it. A board that has never fetched lists of packages
@@ -87,7 +87,7 @@ if ! remote 'test -d /run/systemd/system'; then
   echo "deploy: installed; systemd does not run on $host, so nothing was started."
   exit 0
 fi
-# What ran before was started anew by the package. A robot of several pairs has instances, whose cameras are not to be taken.
+# The package has restarted the services that ran. A robot with several pairs has instances, whose cameras stay theirs.
 units=$(answer 1 'if systemctl -q is-enabled stereod || systemctl -q is-active stereod; then pairs=
   else pairs=$(systemctl --plain --no-legend --all list-units "stereod@*.service" | cut -d " " -f 1); fi
   echo units: ${pairs:-stereod.service}' 2>/dev/null) || die "$host does not answer any more."

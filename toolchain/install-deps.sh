@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs with apt what building stereod and running its demo takes; with --tests also what its tests take, with
-# --emulation also what it takes to run them on other CPUs, to fuzz and to count instructions, with --packages also what it
-# takes to build for other architectures and to try the packages.
-# Does nothing, and asks for no password, if everything is there.
+# Installs with apt what building stereod and running its demo needs, and on request more:
+#   --tests        the suites format, tidy, tests, asan and tsan of tests/run.sh
+#   --emulation    tests, and running them on other CPUs, fuzzing, counting instructions
+#   --cross ARCH   building for arm64, armhf or i386 (with toolchain/make-sysroot.sh, which calls this) and emulating it
+#   --packages     tests, every architecture, and testing the packages
+# Does nothing, and asks for no password, if everything is installed.
 set -euo pipefail
 
 build_packages=(
@@ -11,7 +13,7 @@ build_packages=(
   liblcm-dev liblcm-bin        # the messages on the wire, and the generator of their classes
   libyaml-cpp-dev libspdlog-dev libcli11-dev
   libturbojpeg0-dev libjpeg62-turbo-dev libpng-dev zlib1g-dev
-  libsystemd-dev               # word to systemd of how the daemon is
+  libsystemd-dev               # status for systemd
   libv4l-dev                   # formats of cameras that are not read directly
   iproute2 util-linux          # ip and unshare: the demo's and the tests' own network
   dpkg-dev file                # for cpack: what packages depend on
@@ -21,14 +23,15 @@ test_packages=(libgtest-dev libgmock-dev libopencv-dev poppler-utils libcpp-http
   ccache                       # the tests are built in several ways, and again
   clang-format-14 clang-tidy-14  # the suites format and tidy
 )
-# The Aloe photographs. Some mirrors do without documentation, and so can we.
+# The Aloe photographs. Some mirrors have no documentation packages, and the demo runs without them.
 optional_packages=(opencv-doc)
 emulation_packages=(
   qemu-user g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-i686-linux-gnu googletest
   clang-14 llvm-14 libclang-rt-14-dev valgrind
 )
+declare -A cross_compilers=([arm64]=g++-aarch64-linux-gnu [armhf]=g++-arm-linux-gnueabihf [i386]=g++-i686-linux-gnu)
 foreign_packages=(
-  qemu-user g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-i686-linux-gnu  # tests/cross/run.sh
+  qemu-user "${cross_compilers[@]}"                                          # tests/cross/run.sh
   mmdebstrap lintian openssh-client git systemd-container                     # tests/package
 )
 
@@ -48,8 +51,12 @@ case "${1:-}" in
     packages+=("${test_packages[@]}")
     optional_packages+=("${emulation_packages[@]}")
     ;;
+  --cross)
+    [[ -n ${2:-} && -n ${cross_compilers[$2]:-} ]] || die "--cross needs an architecture: arm64, armhf or i386"
+    packages+=(qemu-user "${cross_compilers[$2]}")
+    ;;
   --packages) packages+=("${test_packages[@]}" "${foreign_packages[@]}") ;;
-  *) die "usage: toolchain/install-deps.sh [--tests | --emulation | --packages]" ;;
+  *) die "usage: toolchain/install-deps.sh [--tests | --emulation | --cross ARCH | --packages]" ;;
 esac
 
 # Prints those of its arguments that are not installed.
@@ -63,13 +70,13 @@ missing_of() {
 }
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
-  die "this system has no apt; install what these Debian packages hold: ${packages[*]}."
+  die "this system has no apt; install the contents of these Debian packages: ${packages[*]}"
 fi
 
 mapfile -t missing < <(missing_of "${packages[@]}")
 mapfile -t optional_missing < <(missing_of "${optional_packages[@]}")
 if [[ ${#missing[@]} -eq 0 && ${#optional_missing[@]} -eq 0 ]]; then
-  echo "install-deps: everything is there already (${#packages[@]} packages)."
+  echo "install-deps: all ${#packages[@]} packages are installed."
   exit 0
 fi
 
@@ -80,7 +87,7 @@ if [[ $(id -u) -ne 0 ]]; then
     exit 0
   fi
   as_root=(sudo)
-  # What is merely nice to have is not worth a password.
+  # Optional packages are not worth asking for a password.
   [[ ${#missing[@]} -gt 0 ]] || as_root=(sudo -n)
 fi
 apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq "$@"; }
@@ -88,11 +95,11 @@ install_packages() { apt install --no-install-recommends -y "$@" >/dev/null; }
 
 echo "install-deps: installing ${missing[*]} ${optional_missing[*]} with apt."
 if [[ ${#missing[@]} -gt 0 ]]; then
-  apt update || die "'apt-get update' failed; is the network there?"
+  apt update || die "'apt-get update' failed; is the network up?"
   install_packages "${missing[@]}" || die "apt could not install: ${missing[*]}."
 elif ! apt update; then
   optional_missing=()
 fi
 for package in "${optional_missing[@]}"; do
-  install_packages "$package" || echo "install-deps: $package cannot be had here; going on without it."
+  install_packages "$package" || echo "install-deps: apt has no $package; continuing without it."
 done

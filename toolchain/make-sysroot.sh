@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Unpacks what stereod is built against for a foreign machine: Debian's libraries and headers of that architecture, from
 # this machine's own apt sources, and a list of their packages, from which dependencies are told when packages are made.
-# Anybody may: apt works in a directory of its own, and nothing is installed.
+# Needs no root rights: apt works in a directory of its own. Only where compiler or emulator of the preset ARCH are missing are
+# they installed first (install-deps.sh --cross ARCH); without root rights and sudo it names the command and ends.
 #   make-sysroot.sh ARCH [--again]        ARCH: arm64, armhf or i386; prints the directory, which is made only once, and again
 #                                         when other packages are wanted than the last time
 # It lies in .cache/stereod/sysroots in the home directory, where the presets of CMakePresets.json look for it.
@@ -17,17 +18,18 @@ usage="usage: toolchain/make-sysroot.sh arm64|armhf|i386 [--again]"
 arch=${1:-}
 [[ $arch == arm64 || $arch == armhf || $arch == i386 ]] || die "$usage"
 [[ $# -le 2 && ${2:---again} == --again ]] || die "$usage"
-[[ -n ${HOME:-} ]] || die "HOME names no directory, so there is none to keep the sysroot in."
+[[ -n ${HOME:-} ]] || die "HOME is not set; the sysroot is kept in \$HOME/.cache/stereod/sysroots."
 sysroots=$HOME/.cache/stereod/sysroots
 sysroot=$sysroots/$arch
 packages=(libc6-dev libstdc++-12-dev liblcm-dev libv4l-dev libyaml-cpp-dev libspdlog-dev libcli11-dev libturbojpeg0-dev
   libjpeg62-turbo-dev libpng-dev libsystemd-dev libgtest-dev libgmock-dev libcpp-httplib-dev)
+"$(dirname "${BASH_SOURCE[0]}")/install-deps.sh" --cross "$arch" >&2
 if [[ -e $sysroot/.complete && $(cat "$sysroot/.complete") == "${packages[*]}" && ${2:-} != --again ]]; then
   echo "$sysroot"
   exit 0
 fi
 
-# Everything is made beside the sysroot and takes its place at the end, so that one that is there outlives a failure.
+# The new sysroot is made beside the old one and replaces it at the end: a failure keeps the old one.
 mkdir -p "$sysroots"
 log=$sysroots/$arch.log
 work=$(mktemp -d -p "$sysroots")

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs a command in a network of its own: nothing but loopback, which carries multicast. LCM works there on every
-# machine, nothing leaves it, and nobody else's LCM traffic is disturbed. Needs no privileges, only a kernel that
-# lets users make namespaces.
+# Runs a command in a network namespace with nothing but loopback, which carries multicast. LCM works there on every
+# machine, no message leaves it, and other LCM traffic is not disturbed. Needs no privileges, only a kernel that lets users
+# create namespaces.
 #
 #   own-network.sh COMMAND [ARGUMENT…]
-#   own-network.sh --possible            succeeds if it can be done here; says nothing
+#   own-network.sh --possible            succeeds if a namespace can be created here; prints nothing
 set -euo pipefail
 
 set_up='ip link set lo up && ip route add 224.0.0.0/4 dev lo'
@@ -23,7 +23,7 @@ find_unshare() {
 }
 
 if ! flags=$(find_unshare); then
-  [[ ${1:-} == --possible ]] || echo "own-network: this machine lets nobody make a network namespace." >&2
+  [[ ${1:-} == --possible ]] || echo "own-network: this machine does not allow network namespaces." >&2
   exit 1
 fi
 [[ ${1:-} != --possible ]] || exit 0

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Everything for other architectures: builds it against Debian's libraries of that architecture, runs its tests under
 # qemu-user, makes the packages, and compares what they depend on with the ones made for this machine.
-#   tests/cross/run.sh [ARCH...]        arm64, armhf, i386; all of them, if none is named
-# Takes up to half an hour for each architecture on two cores, so it is no part of tests/run.sh. At the end it prints the
-# table of docs/boards.md. JOBS sets how many things are done at once.
+#   tests/cross/run.sh [ARCH...]        arm64, armhf, i386; default: all
+# Takes up to half an hour for each architecture on two cores (suite "cross" of tests/run.sh). At the end it prints the table
+# of docs/boards.md. JOBS sets the number of parallel jobs. Installs the compilers and emulators it needs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 jobs=${JOBS:-$(nproc)}
@@ -28,8 +28,8 @@ step() {
   fi
 }
 
-# LCM's tests send where nobody else listens, if that can be done here. An emulated CPU that shares the machine with another
-# test can be too slow for what a test waits for, so what failed is run once more, alone, and named.
+# Tests send their LCM messages in a network of their own where one can be made. An emulated CPU that shares the machine with
+# another test can be too slow for a test's deadline: failed tests run once more, alone, and are named.
 run_tests() {
   local network=()
   if toolchain/own-network.sh --possible; then network=(toolchain/own-network.sh); fi
@@ -64,7 +64,7 @@ names_of() { sed -nE "s/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) .*$1 .*/\1/p" "
 installed_size() { dpkg-deb --fsys-tarfile "$(only_package "$arch" stereod)" | tar -xO ./usr/bin/stereod | wc -c; }
 small_enough() {
   local allowed
-  allowed=$(sed -n 's/^largest_binary=\([0-9]*\).*/\1/p' tests/package/footprint.sh)
+  allowed=$(sed -n 's/^max_binary=\([0-9]*\).*/\1/p' tests/package/footprint.sh)
   echo "stereod: $(installed_size) bytes; allowed are $allowed"
   [[ $(installed_size) -le $allowed ]]
 }
@@ -113,6 +113,7 @@ one() {
 }
 
 [[ $# -gt 0 ]] || set -- arm64 armhf i386
+toolchain/install-deps.sh --packages
 mkdir -p "$logs"
 arch=package
 step packages make_native || die "the packages for this machine, to compare with, could not be made."

@@ -3,11 +3,11 @@
 # stereod on one host, a receiver on another: two network namespaces with a cable between them. What is lost on the way is
 # measured with a time to live of 1; with 0 nothing may get out; and with the firewall line of docs/service.md nothing does.
 #
-#   two_hosts.sh FOLDER-OF-PROGRAMS
+#   two_hosts.sh DIRECTORY-OF-PROGRAMS
 #
 # Ends with 77, skipped, where no namespaces can be made.
 set -euo pipefail
-bin=$(realpath "${1:?two_hosts.sh FOLDER-OF-PROGRAMS}")
+bin=$(realpath "${1:?two_hosts.sh DIRECTORY-OF-PROGRAMS}")
 
 fail() {
   echo "two_hosts: FAILED: $*" >&2
@@ -22,7 +22,7 @@ if [[ ${2:-} != --inside ]]; then
   for flags in -rn -n; do
     if unshare "$flags" true 2>/dev/null; then exec unshare "$flags" "$0" "$bin" --inside; fi
   done
-  echo "two_hosts: this machine lets nobody make a network namespace: skipped."
+  echo "two_hosts: this machine does not allow network namespaces: skipped."
   exit 77
 fi
 

@@ -31,14 +31,14 @@ deb [signed-by=/two.gpg] http://two.example/debian bookworm main
 deb http://three.example/debian/ bookworm main'
 expect 'lines' "$lines"
 
-# Somebody else's, who names a suite as Debian does, is no reason to overlook Debian's.
+# A third party's source whose suite has Debian's name must not hide Debian's own.
 cat >"$work/sources.list.d/containers.sources" <<'END'
 Types: deb
 URIs: https://containers.example/linux/debian
 Suites: bookworm
 Components: stable
 END
-expect 'lines beside a paragraph of somebody else' "$lines"
+expect 'lines beside a paragraph of a third party' "$lines"
 
 # Whose packages apt has fetched lists of, it knows. Here an apt-get that knows as much as the test wants.
 mkdir "$work/bin"
@@ -48,7 +48,7 @@ knows() {
 }
 PATH=$work/bin:$PATH
 knows 'Debian http://one.example/debian/' 'Some One Else http://two.example/debian/' '$(ORIGIN) http://three.example/debian/'
-expect 'one of them is of somebody else' "$(sed 2d <<<"$lines")"
+expect 'one of them is a third party' "$(sed 2d <<<"$lines")"
 knows 'A http://one.example/debian/' 'B http://two.example/debian/' 'C http://three.example/debian/'
 expect 'only mirrors by other names' "$lines"
 knows

@@ -4,7 +4,7 @@
 # with an ssh server and your key, booted with systemd in a network of its own; the developer's machine is this one.
 # A root has no cameras: in their place the editor that the page calls writes down a rendered scene. With cameras the
 # service is tried in the virtual machine (tests/vm).
-# Ends with 77, skipped, for who is not root or lacks a tool. Builds the packages.
+# Ends with 77, skipped, without root rights or a tool. Builds the packages.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 . tests/package/root.sh

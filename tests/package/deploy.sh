@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # toolchain/deploy.sh, tried against a second machine of the test's own: a bare Debian 12 root with an ssh server on loopback,
 # first without systemd, then booted with it, in a network of its own.
-# Ends with 77, skipped, for who is not root or lacks a tool. Builds the package.
+# Ends with 77, skipped, without root rights or a tool. Builds the package.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 . tests/package/root.sh
@@ -22,7 +22,7 @@ for user in pilot guest; do
   in_root chown -R "$user:" "/home/$user/.ssh"
 done
 echo 'pilot ALL=(ALL) NOPASSWD: ALL' >"$root/etc/sudoers.d/pilot"
-# His shell greets whoever comes, in words that a shell would take for all files.
+# The shell prints a greeting that a shell would expand to all files.
 echo "echo '*** Welcome, *'" >"$root/home/pilot/.bashrc"
 touch "$root/home/pilot/mine"
 mkdir -p "$root/run/sshd"
@@ -71,7 +71,7 @@ for sentence in 'Active: active \(running\)' 'Status: "Waiting for cameras: ' 's
   grep -qE "$sentence" "$work/out" || { cat "$work/out"; fail "it should show '$sentence'"; }
 done
 say "  $(grep -o 'Status: .*' "$work/out")"
-[[ $(grep 'Status: ' "$work/out" | grep -o 'needs two cameras' | wc -l) -eq 1 ]] || fail "what both cameras say is to be said once"
+[[ $(grep 'Status: ' "$work/out" | grep -o 'needs two cameras' | wc -l) -eq 1 ]] || fail "the reason that both cameras share must be printed once"
 grep -q '^# my own line$' "$root/etc/stereod/stereod.yaml" || fail "it has overwritten the configuration"
 [[ -z $(in_booted find /tmp -maxdepth 1 -name 'stereod-*') ]] || fail "the package was left in /tmp"
 
@@ -79,17 +79,17 @@ say "over the running service"
 pid=$(property MainPID)
 in_booted systemctl --quiet enable stereod
 deploy pilot 22 in_its_network || { cat "$work/out"; fail "deploy.sh ended with an error"; }
-[[ $(property MainPID) -ne $pid && $(property ActiveState) == active ]] || fail "it was not started anew"
+[[ $(property MainPID) -ne $pid && $(property ActiveState) == active ]] || fail "it was not restarted"
 ! grep -q 'not after the next start' "$work/out" || fail "it is enabled, and deploy.sh says it is not"
 
-say "a robot whose pairs have instances: they are started anew, no other service takes their cameras"
+say "a robot whose pairs have instances: they are restarted, and no other service takes their cameras"
 in_booted systemctl --quiet disable --now stereod
 printf 'cameras: {source: synthetic, fps: 5}\nlcm: {prefix: FRONT}\n' >"$root/etc/stereod/front.yaml"
 in_booted systemctl --quiet enable --now stereod@front
 front() { in_booted systemctl show --property "$1" --value stereod@front.service; }
 pid=$(front MainPID)
 deploy pilot 22 in_its_network || { cat "$work/out"; fail "deploy.sh ended with an error"; }
-[[ $(front MainPID) -ne $pid && $(front ActiveState) == active ]] || fail "stereod@front was not started anew"
+[[ $(front MainPID) -ne $pid && $(front ActiveState) == active ]] || fail "stereod@front was not restarted"
 [[ $(property ActiveState) == inactive ]] || fail "stereod was started beside stereod@front"
 grep -q 'stereod@front.service' "$work/out" || { cat "$work/out"; fail "it should show stereod@front"; }
 in_booted systemctl --quiet disable --now stereod@front

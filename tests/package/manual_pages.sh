@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Every option that a program's --help names, its commands' included, is in its manual page.
-#   manual_pages.sh FOLDER-OF-PROGRAMS
+#   manual_pages.sh DIRECTORY-OF-PROGRAMS
 set -euo pipefail
-bin=${1:?usage: manual_pages.sh FOLDER-OF-PROGRAMS}
+bin=${1:?usage: manual_pages.sh DIRECTORY-OF-PROGRAMS}
 pages=$(dirname "${BASH_SOURCE[0]}")/../../docs/man
 failed=0
 checked=0

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Two builds of the same commit, in two directories and under other circumstances (time zone, language, umask, user's home), give
 # the same packages byte for byte.
-#   reproducible.sh [COMMIT [FOLDER-OF-DEBS]]
-# Builds everything twice, without a compiler cache: some fifteen minutes on two cores; once, if there are packages of the
-# commit already (preset package), made in another directory than this builds in.
+#   reproducible.sh [COMMIT [DIRECTORY-OF-DEBS]]
+# Builds everything twice, without a compiler cache: some fifteen minutes on two cores. With DIRECTORY-OF-DEBS (packages of
+# the commit, made by the preset package in another directory) it builds once.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 commit=$(git rev-parse "${1:-HEAD}")
@@ -19,7 +19,7 @@ fail() {
   exit 1
 }
 
-# build FOLDER VARIABLE=VALUE…
+# build DIRECTORY VARIABLE=VALUE…
 build() {
   local directory=$1
   shift

@@ -9,7 +9,7 @@ fail() {
   exit 1
 }
 
-# need_root TOOL…: ends with 77, skipped, for who is not root or lacks a tool.
+# need_root TOOL…: ends with 77, skipped, without root rights or a tool.
 need_root() {
   local tool
   [[ $(id -u) -eq 0 ]] || { say "roots are made by root: skipped." && exit 77; }

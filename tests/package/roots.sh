@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The packages in bare Debian 12 roots: installed, removed, purged, installed again, upgraded; and a program of somebody
-# else's, built against libstereod-dev, that receives frames. Then lintian looks at them.
-#   roots.sh [FOLDER-OF-DEBS]      without one the packages are made (preset package)
-# Ends with 77, skipped, for who is not root or has no mmdebstrap. The roots and what apt fetched are kept in
+# Installs, removes, purges, reinstalls and upgrades the packages in bare Debian 12 roots; builds another project's program
+# against libstereod-dev and receives frames with it; runs lintian on the packages.
+#   roots.sh [DIRECTORY-OF-DEBS]      default: makes the packages (preset package)
+# Ends with 77, skipped, without root rights or mmdebstrap. The roots and what apt fetched are kept in
 # ${XDG_CACHE_HOME:-~/.cache}/stereod/roots.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -19,7 +19,7 @@ if [[ ${1:-} != --inside ]]; then
   in_namespace "$(realpath "$debs")"
 fi
 debs=$2
-# apt with nobody to ask, as on a robot that updates itself: dpkg fails if it would have to ask.
+# apt without a terminal, as on a robot that updates itself: dpkg fails if it would have to ask.
 apt() { in_root apt-get -qq -y --no-install-recommends "$@" </dev/null >"$work/apt.log" 2>&1; }
 need_apt() { apt "$@" || { tail -n 30 "$work/apt.log"; fail "apt-get $*"; }; }
 in_network() { toolchain/own-network.sh "$@"; }
@@ -148,7 +148,7 @@ left=$(cd "$root" && find etc usr lib var run -name '*stereo-calibrate*' ! -path
 
 base development ca-certificates,g++,cmake,make,pkg-config
 enter development
-say "somebody else's program"
+say "another project's program"
 need_apt install "$daemon_deb" "$development_deb"
 cp -r tests/package/consumer "$root/home/consumer"
 in_root sh -ec 'cd /home/consumer && cmake -S . -B build >/dev/null && cmake --build build >/dev/null' || fail "it does not build with CMake"

@@ -20,18 +20,18 @@ exposure() {
   systemd-analyze security --offline=true --no-pager "$1" | sed -n 's/.*Overall exposure level for .*: \([0-9.]*\) .*/\1/p'
 }
 
-# at_most UNIT LEVEL
-at_most() {
+# check_exposure UNIT MAXIMUM: fails above it.
+check_exposure() {
   local found
   found=$(exposure "$1")
-  [[ -n $found ]] || fail "systemd-analyze says nothing about $1"
-  echo "units: $(basename "$1") is exposed $found, allowed are $2"
-  awk -v found="$found" -v most="$2" 'BEGIN { exit !(found <= most) }' || fail "$1 is too exposed"
+  [[ -n $found ]] || fail "systemd-analyze prints no exposure of $1"
+  echo "units: $(basename "$1") exposure $found (limit $2)"
+  awk -v found="$found" -v maximum="$2" 'BEGIN { exit !(found <= maximum) }' || fail "$1 is too exposed"
 }
 
-at_most systemd/stereod.service 1.5
-at_most systemd/stereod@.service 1.5
-at_most systemd/stereod-multicast.service 2
+check_exposure systemd/stereod.service 1.5
+check_exposure systemd/stereod@.service 1.5
+check_exposure systemd/stereod-multicast.service 2
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -40,7 +40,7 @@ trap 'rm -rf "$scratch"' EXIT
   sed '/^\[Install\]/,$d' systemd/stereod.service
   grep -v '^\[' systemd/examples/realtime.conf
 } >"$scratch/stereod.service"
-at_most "$scratch/stereod.service" 1.5
+check_exposure "$scratch/stereod.service" 1.5
 
 # What is known to differ is made the same.
 sed -e 's/ (%i)//' -e 's#/etc/stereod/%i.yaml#/etc/stereod/stereod.yaml#' -e 's#^StateDirectory=stereod/%i#StateDirectory=stereod#' \
@@ -53,4 +53,4 @@ for unit in systemd/*.service; do
     grep "$(basename "$unit")" | grep -v 'is not executable' || true)
   [[ -z $complaints ]] || fail "$complaints"
 done
-echo "units: all is well."
+echo "units: OK"

@@ -3,7 +3,7 @@
 # Tests with a real kernel: Debian's kernel and systemd in a virtual machine, with webcams on uvcvideo. All scenarios run in
 # one machine, one after the other. Says what is skipped where QEMU or the packages cannot be had.
 #
-#   run.sh [--cpu MODEL] [--bin FOLDER] [--package FILE] [--seed N] [--pause GROUP] [SCENARIO…]     all scenarios, if none is named
+#   run.sh [--cpu MODEL] [--bin DIRECTORY] [--package FILE] [--seed N] [--pause GROUP] [SCENARIO…]     default: all scenarios
 #
 # --cpu: a CPU model of QEMU, for example Denverton; --bin: take the programs from there instead of building them; --package: the
 # stereod that is installed by the scenarios that install it; --seed: of what scenarios do at random, as an earlier run printed it;
@@ -45,7 +45,7 @@ fill_share() {
   done
 }
 
-# Boots the machine, in the background, for so many seconds at most.
+# Boots the machine in the background: boot SECONDS, after which it is killed.
 boot() {
   timeout -k 5 "$1" qemu-system-x86_64 \
     -accel tcg,thread=multi -cpu "$cpu" -smp 2 -m 1024 -M q35 \
@@ -63,8 +63,8 @@ neighbor() {
   if [[ -n $pause && $(head_of "$2" alone) == yes ]]; then kill -"$1" -- -"$pause" 2>/dev/null || true; fi
 }
 
-# Waits for a scenario's end, or the machine's, and says how it went.
-judge() {
+# Waits for the end of a scenario or of the machine, and prints the result.
+report() {
   local name=$1 status= seconds=
   while [[ ! -f $logs/$name/result ]] && kill -0 "$machine" 2>/dev/null; do sleep 0.5; done
   [[ ! -f $logs/$name/result ]] || read -r status seconds <"$logs/$name/result"
@@ -99,7 +99,7 @@ while [[ $# -gt 0 ]]; do
     --package) package=$(realpath "${2:?--package wants a file}") && shift ;;
     --seed) seed=${2:?--seed wants a number} && shift ;;
     --pause) pause=${2:?--pause wants a process group} && shift ;;
-    -*) die "usage: tests/vm/run.sh [--cpu MODEL] [--bin FOLDER] [--package FILE] [--seed N] [--pause GROUP] [SCENARIO…]" ;;
+    -*) die "usage: tests/vm/run.sh [--cpu MODEL] [--bin DIRECTORY] [--package FILE] [--seed N] [--pause GROUP] [SCENARIO…]" ;;
     *) scenarios+=("$1") ;;
   esac
   shift
@@ -148,7 +148,7 @@ run_all() {
   failed=()
   for name in "${scenarios[@]}"; do
     neighbor STOP "$name"
-    judge "$name" || failed+=("$name")
+    report "$name" || failed+=("$name")
     neighbor CONT "$name"
   done
   wait "$machine" || true

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Writes a software bill of materials (SPDX 2.3, tag-value): every library the programs load, directly or through another
 # one, and every library of which only headers were compiled in, with the Debian package and version it came from.
-#   bill-of-materials.sh --name N --version V --headers 'PACKAGE…' --sysroot FOLDER --objdump PROGRAM --output FILE PROGRAM…
-# An empty sysroot is this machine. A sysroot is one of make-sysroot.sh, with its list of packages.
+#   bill-of-materials.sh --name N --version V --headers 'PACKAGE…' --sysroot DIRECTORY --objdump PROGRAM --output FILE PROGRAM…
+# An empty --sysroot means this machine; otherwise a sysroot of make-sysroot.sh, with its list of packages.
 set -euo pipefail
-umask 022  # what is installed is for everybody, whoever makes the package
+umask 022  # installed files are readable by all users, independent of the umask
 
 name= version= headers= sysroot= objdump=objdump output= programs=()
 while [[ $# -gt 0 ]]; do
@@ -20,7 +20,7 @@ while [[ $# -gt 0 ]]; do
   shift
 done
 [[ -n $name && -n $output && ${#programs[@]} -gt 0 ]] || {
-  echo "usage: bill-of-materials.sh --name N --version V --headers 'PACKAGE…' --sysroot FOLDER --objdump PROGRAM" \
+  echo "usage: bill-of-materials.sh --name N --version V --headers 'PACKAGE…' --sysroot DIRECTORY --objdump PROGRAM" \
     "--output FILE PROGRAM…" >&2
   exit 1
 }
@@ -59,7 +59,7 @@ while [[ ${#queue[@]} -gt 0 ]]; do
   [[ -z ${seen[$library]:-} ]] || continue
   seen[$library]=yes
   path=$(path_of "$library")
-  [[ -n $path ]] || die "$library is nowhere where the loader looks."
+  [[ -n $path ]] || die "$library is in no directory of the loader."
   # What an alternative leads to belongs to a package, its link to none. A package may know the library with or without /usr.
   [[ -n $sysroot || $(readlink "$path") != /etc/alternatives/* ]] || path=$(readlink -f "$path")
   file=${path#"$sysroot"}  # a sysroot's lists name files as they lie there
@@ -71,7 +71,7 @@ while IFS= read -r line; do
   [[ ${packages[${line%%: *}]:-} == *"$library "* ]] || packages[${line%%: *}]+="$library "
 done < <(query -S "${!at[@]}" || true)  # an error if it knows one of the names only
 for library in "${!seen[@]}"; do
-  [[ " ${packages[*]} " == *" $library "* ]] || die "no package is known to have $library."
+  [[ " ${packages[*]} " == *" $library "* ]] || die "no installed package contains $library."
 done
 for package in $headers; do packages[$package]='(headers) '; done
 

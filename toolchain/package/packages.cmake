@@ -158,7 +158,7 @@ set(CPACK_DEBIAN_STEREOD_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_STEREOD_PACKAGE_DEPENDS "systemd (>= 252) | systemd-standalone-sysusers, udev, iproute2")
 set(CPACK_DEBIAN_STEREOD_PACKAGE_SUGGESTS "stereo-calibrate, v4l-utils, liblcm-bin, liblcm-java, libjchart2d-java, default-jre")
 set(CPACK_COMPONENT_STEREOD_DESCRIPTION "stereo vision daemon for robot boards
-Reads two webcams, rectifies their pictures with a lookup table, matches them
+Reads two webcams, rectifies their images with a lookup table, matches them
 with a threaded SIMD matcher, semi-global or by blocks, and publishes rows
 of disparity over LCM to the other processes of the robot. With the tools
 stereo-tap (watch, save and check what is published), stereo-view (a live
@@ -173,7 +173,7 @@ set(CPACK_DEBIAN_STEREO-CALIBRATE_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_STEREO-CALIBRATE_PACKAGE_SUGGESTS stereod)
 set(CPACK_COMPONENT_STEREO-CALIBRATE_DESCRIPTION "calibration of two cameras for stereod
 Calibrates a pair of cameras from a printed chessboard, live with guidance or
-from pictures, says whether the result is any good, and takes over and writes
+from images, reports how good the result is, and imports and exports
 calibrations of ROS, OpenCV and Kalibr. May live on another machine than
 stereod.")
 

@@ -37,9 +37,9 @@ look() {
     END { printf "%.1f %.1f %.1f\n", left / n, right / n, 200 * (pairs_after - pairs_before) / (after - before) }' statuses.txt)
   echo "left $left_rate, right $right_rate frames a second; $share % of the frames paired"
 }
-at_least() { awk -v value="$1" -v least="$2" 'BEGIN { exit !(value >= least) }'; }
-full_rate() { look && at_least "$left_rate" 29 && at_least "$right_rate" 29 && at_least "$share" 95; }
-# A busy host takes frames from a camera that nobody fetches in time: once more then, but not for ever.
+reaches() { awk -v value="$1" -v minimum="$2" 'BEGIN { exit !(value >= minimum) }'; }
+full_rate() { look && reaches "$left_rate" 29 && reaches "$right_rate" 29 && reaches "$share" 95; }
+# On a busy host a camera loses frames that are not fetched in time: the check is repeated a limited number of times.
 full_rate || full_rate || full_rate || fail "two cameras are to give 30 frames a second, 95 % of them in pairs"
 get_status
 cat status.txt

@@ -53,7 +53,7 @@ pid=$(property MainPID)
 cp /etc/stereod/stereod.yaml mine.yaml
 dpkg --force-confold --install /share/stereod_*.deb
 cmp mine.yaml /etc/stereod/stereod.yaml || fail "the configuration was overwritten"
-[[ $(property ActiveState) == active && $(property MainPID) -ne $pid ]] || fail "it was not started anew"
+[[ $(property ActiveState) == active && $(property MainPID) -ne $pid ]] || fail "it was not restarted"
 streams
 
 echo "=== remove"

@@ -4,7 +4,7 @@
 . /share/guest/lib.sh
 start_cameras
 
-# How far 9 of 10 frame times of a camera that nobody disturbs are off, in µs by the driver's stamps.
+# Deviation of 9 of 10 frame intervals of an undisturbed camera [µs, by the driver's timestamps].
 jitter_us() {
   v4l2-ctl -d "$(by_id $left_serial)" --set-fmt-video=width=320,height=240,pixelformat=MJPG --stream-mmap \
     --stream-count=90 --verbose 2>&1 | sed -n 's/.* ts: \([0-9.]*\) .*/\1/p' |
@@ -25,7 +25,7 @@ if ! wait_for 90 aligned; then
   cat status.txt stereod.log
   # The stamps are taken by the guest's clock when a frame begins to arrive: on a busy machine much too late.
   if [[ $jitter -gt 1500 ]]; then
-    shown "NOT JUDGED: the stamps of an undisturbed camera are $jitter µs off, too coarse to bring two into phase"
+    shown "NOT CHECKED: timestamps of an undisturbed camera deviate by $jitter µs, too coarse to synchronize two"
     exit 0
   fi
   fail "the cameras were not brought into phase, though their stamps are only $jitter µs off"
@@ -37,6 +37,6 @@ shown "$(sed -n 's/^phase alignment  *//p' status.txt) (stamps $jitter µs off)"
 
 tell right drift 1500  # a crystal so bad that it takes seconds, not minutes
 drifted() { get_status && grep -q "^phase alignment  *drifted" status.txt; }
-wait_for 40 drifted || { cat status.txt; fail "nobody noticed that the cameras have drifted apart"; }
+wait_for 40 drifted || { cat status.txt; fail "the drift between the cameras was not detected"; }
 shown "$(sed -n 's/^phase alignment  *//p' status.txt)"
 stop_stereod

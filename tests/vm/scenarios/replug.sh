@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# shows: unplug left, unplug both, swap ports, freeze 3 s: said with its reason, and streaming again with nothing left over
+# shows: unplug left, unplug both, swap ports, freeze 3 s: each reported with its reason, then streaming again without leftovers
 # seconds: 240
 . /share/guest/lib.sh
 start_cameras
@@ -9,7 +9,7 @@ need_streaming 60
 echo "=== unplug left"
 tell left unplug
 need left state 'absent|lost' reason unplugged
-need right frames ', [1-9][0-9.]* /s now'  # the other one goes on
+need right frames ', [1-9][0-9.]* /s now'  # the right camera continues
 tell left plug
 need_streaming 40 "plugged in again, the left camera should stream"
 says left 'last fault' unplugged || fail "the last fault of the left camera should be that it was unplugged"

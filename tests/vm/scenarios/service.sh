@@ -105,7 +105,7 @@ need_status 150 "matchr: is not a known key; the nearest known key is 'matcher'"
 cp good.yaml /etc/stereod/stereod.yaml
 systemctl reload stereod || fail "systemctl reload"
 need_status 150 "$streams[^;]*(; no calibration is configured.*)?\$"
-[[ $(property MainPID) -eq $pid ]] || fail "it was started anew"
+[[ $(property MainPID) -eq $pid ]] || fail "it was restarted"
 shown "after four reloads the same process, $(property StatusText)"
 
 echo "=== unplug and replug"
