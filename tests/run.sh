@@ -119,9 +119,8 @@ fi
 # themselves and say why.
 network=()
 
-# Runs ctest on a preset and counts single tests: those of ctest; and of a program that runs whole (a shard), which is one
-# to ctest, those that GoogleTest counts.
-#   run_ctest SUITE PRESET [COMMAND…]      COMMAND: what runs ctest
+# Runs ctest on a preset and counts single tests.
+#   run_ctest SUITE PRESET [COMMAND…]      COMMAND: a program that runs ctest
 run_ctest() {
   local suite=$1 name=$2 log=$logs/$2 status=0 p f s
   shift 2
@@ -130,26 +129,7 @@ run_ctest() {
   "$@" "${network[@]}" ctest --preset "$name" -j "$jobs" --output-junit "$PWD/$log.xml" --output-log "$log.log" \
     --test-output-size-passed 10000000 --test-output-size-failed 10000000 ${arguments[$suite]:-} || status=$?
   [[ -s $log.xml ]] || return 1
-  read -r p f s < <(awk '
-    /<testcase / {
-      match($0, / name="[^"]*"/)
-      name = substr($0, RSTART + 7, RLENGTH - 8)
-      match($0, / status="[^"]*"/)
-      status = substr($0, RSTART + 9, RLENGTH - 10)
-      shard = name ~ /^test_[a-z_]+\.[0-9]+$/
-      counted = 0
-      if (!shard) {
-        if (status == "run") ++p
-        else if (status == "notrun" || status == "disabled") ++s
-        else ++f
-      } else if (status != "run") {
-        ++f
-      }
-    }
-    # A shard that ended counts its own tests; one that crashed has failed as one.
-    shard && /\[  PASSED  \] [0-9]+ test/ { match($0, /\] [0-9]+/); p += substr($0, RSTART + 2, RLENGTH - 2) }
-    shard && /\[  SKIPPED \] [0-9]+ test/ { match($0, /\] [0-9]+/); s += substr($0, RSTART + 2, RLENGTH - 2) }
-    END { print p + 0, f + 0, s + 0 }' "$log.xml")
+  read -r p f s < <(tests/count_tests.sh "$log.xml")
   [[ $((p + f)) -gt 0 ]] || { echo "no test ran ${arguments[$suite]:-}" && return 1; }
   count "$p" "$f" "$s"
   return "$status"
@@ -204,7 +184,7 @@ run_vm() {
   compile_ahead  # the machine leaves a third of the CPUs' time
   # shellcheck disable=SC2086
   bash tests/vm/run.sh --bin build/release/bin ${ahead:+--pause "$ahead"} "${package[@]}" ${arguments[vm]:-} 2>&1 |
-    tee "$log" || status=1
+    tee "$log" || status=$?
   count_lines "$log" '^vm/run: [^ ]+ +passed in' '^vm/run: [^ ]+ +FAILED;'
   return "$status"
 }
@@ -226,7 +206,7 @@ run_emulated() {
   local log=$logs/emulated.log status=0
   toolchain/install-deps.sh --emulation || return 1
   # shellcheck disable=SC2086
-  tests/emulated/run.sh ${arguments[emulated]:-} 2>&1 | tee "$log" || status=1
+  tests/emulated/run.sh ${arguments[emulated]:-} 2>&1 | tee "$log" || status=$?
   count_lines "$log" '^--- .*: passed with' '^--- .*: FAILED'
   return "$status"
 }
@@ -235,7 +215,7 @@ run_fuzz() {
   local log=$logs/fuzz.log status=0
   toolchain/install-deps.sh --emulation || return 1
   # shellcheck disable=SC2086
-  tests/fuzz/run.sh ${arguments[fuzz]:-} 2>&1 | tee "$log" || status=1
+  tests/fuzz/run.sh ${arguments[fuzz]:-} 2>&1 | tee "$log" || status=$?
   count_lines "$log" '^fuzz/run.sh: [a-z_]+: Done' '^fuzz/run.sh: .* FAILED'
   return "$status"
 }

@@ -4,23 +4,61 @@
 # missing.
 #   tests/tidy/run.sh [FILE…]        FILE: only these, one by one
 #
-# A run parses each library as one unit (a unity build): headers, which take most of the time, are parsed once a library. A
-# library whose sources clash in one unit is checked source by source. What passed is remembered by the hash of the
-# preprocessed unit, the checks and the tool in ~/.cache/stereod/tidy, so unchanged units cost a preprocessor run.
+# A run parses each library as one unit (a unity build), because headers take most of the time. Sources whose anonymous names
+# clash are parted into smaller units. What passed is remembered by the hash of the preprocessed unit, the checks and the tool
+# in ~/.cache/stereod/tidy, so that an unchanged unit costs a preprocessor run.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 tool=clang-tidy-14
 build=build/tidy
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/stereod/tidy
-# In a unit, .cpp files are included, which two checks are about.
+# In a unit, sources are included (a check of its own), and warnings about names that another source has are no findings:
+# g++ warns of each source by itself.
 unit_options=(--checks=-bugprone-suspicious-include '--header-filter=(core|daemon|calib)/.*\.(h|cpp)$')
 
 # --- one unit, called by xargs: its file and its command
+flags=()
+status=0
+
+# check FILE [FLAG…]: runs the tool, unless this very text has passed before.
+check() {
+  local file=$1 hash
+  shift
+  # Comments are part of the text: NOLINT is one.
+  hash=$({ "$tool" --version && cat .clang-tidy && printf '%s\n' "${unit_options[@]}" "${flags[@]}" "$@" &&
+    g++ "${flags[@]}" -E -P -C -dD "$file"; } | sed "s#$PWD#.#g" | sha256sum | cut -c -40)
+  if [[ -e $cache/$hash ]]; then
+    touch "$cache/$hash"
+  elif "$tool" --quiet --config-file=.clang-tidy "${unit_options[@]}" "$file" -- "${flags[@]}" -Wno-unknown-warning-option "$@" \
+    >"$work/log" 2>&1; then
+    touch "$cache/$hash"
+  else
+    status=1
+    grep -vE 'warnings? (and [0-9]+ errors? )?generated\.$|^Suppressed |^Use -header-filter|^[0-9]+ warnings? treated' "$work/log" || true
+  fi
+}
+
+# check_together SOURCE…: as one unit if they compile as one, else in halves.
+check_together() {
+  if [[ $# -eq 1 ]]; then
+    check "$1"
+    return
+  fi
+  local unit half=$(($# / 2))
+  unit=$work/$(printf '%s\n' "$@" | sha256sum | cut -c -16).cpp
+  printf '#include "%s"\n' "$@" >"$unit"
+  if g++ "${flags[@]}" -w -fsyntax-only "$unit" 2>/dev/null; then
+    check "$unit" -w
+  else
+    check_together "${@:1:half}"
+    check_together "${@:half+1}"
+  fi
+}
+
 if [[ ${1:-} == --unit ]]; then
-  file=$2 command=$3
-  mapfile -t words < <(xargs -n 1 <<<"$command")
-  flags=()
+  file=$2
+  mapfile -t words < <(xargs -n 1 <<<"$3")
   for ((i = 1; i < ${#words[@]}; ++i)); do
     case ${words[i]} in
       -o) i=$((i + 1)) ;;
@@ -28,36 +66,15 @@ if [[ ${1:-} == --unit ]]; then
       *) flags+=("${words[i]}") ;;
     esac
   done
-  # Comments are part of the unit: NOLINT is one.
-  hash=$({ "$tool" --version && cat .clang-tidy && printf '%s\n' "${unit_options[@]}" "${flags[@]}" &&
-    g++ "${flags[@]}" -E -P -C -dD "$file"; } | sed "s#$PWD#.#g" | sha256sum | cut -c -40) || exit 1
-  if [[ -e $cache/$hash ]]; then
-    touch "$cache/$hash"
-    exit 0
-  fi
-  options=("${unit_options[@]}")
-  sources=("$file")
-  log=$(mktemp)
-  trap 'rm -f "$log"' EXIT
-  check() { "$tool" --quiet --config-file=.clang-tidy "${options[@]}" "$1" -- "${flags[@]}" -Wno-unknown-warning-option >"$log" 2>&1; }
-  status=0
-  check "$file" || status=1
-  if [[ $status -ne 0 && $file == */Unity/* ]] && grep -q 'clang-diagnostic-error' "$log"; then
-    status=0
-    options=()
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+  if [[ $file == */Unity/* ]]; then
     mapfile -t sources < <(sed -n 's/^#include "\(.*\)"$/\1/p' "$file")
-    : >"$log.all"
-    for source in "${sources[@]}"; do
-      check "$source" || { status=1 && cat "$log" >>"$log.all"; }
-    done
-    mv "$log.all" "$log"
+  else
+    sources=("$file")
   fi
-  if [[ $status -ne 0 ]]; then
-    grep -vE 'warnings? (and [0-9]+ errors? )?generated\.$|^Suppressed |^Use -header-filter' "$log"
-    exit 1
-  fi
-  touch "$cache/$hash"
-  exit 0
+  check_together "${sources[@]}"
+  exit "$status"
 fi
 
 command -v "$tool" >/dev/null || {
