@@ -9,17 +9,9 @@
 #include <utility>
 
 #include "core/base/image.h"
+#include "core/base/luma_view.h"
 
 namespace stereod {
-
-/// The brightness of a image, read where it lies: `pixel_stride` is 1 for gray and planar formats, 2 for
-/// the Y of YUYV and UYVY.
-struct LumaView {
-  const std::uint8_t* data = nullptr;
-  Size size;
-  std::ptrdiff_t row_stride = 0;    ///< bytes
-  std::ptrdiff_t pixel_stride = 1;  ///< bytes
-};
 
 /// One frame of one camera.
 struct Frame {
