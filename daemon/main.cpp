@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // stereod: the daemon.
 #include <signal.h>
 #include <spdlog/spdlog.h>
@@ -23,10 +24,10 @@
 namespace stereod {
 namespace {
 
-constexpr int kExitRetry = 1;    // something outside may get better: systemd may start it again
-constexpr int kExitConfig = 78;  // sysexits(3) EX_CONFIG: it will never work like this
+constexpr int kExitRetry = 1;    // a later start may succeed; systemd starts the daemon again
+constexpr int kExitConfig = 78;  // EX_CONFIG of sysexits.h: this configuration can never work
 
-// Signals are not handled but waited for; every thread inherits the mask.
+// Blocks the signals that wait_for_signal() takes. Threads started later inherit the mask.
 sigset_t blocked_stop_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -34,12 +35,12 @@ sigset_t blocked_stop_signals() {
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  // Whoever read the log may go away; that is no reason to stop.
+  // The reader of stderr may exit before the daemon.
   ::signal(SIGPIPE, SIG_IGN);
   return signals;
 }
 
-// Waits until a signal comes or the time has come; the signal's number, or 0.
+// Waits for a signal until the given time. Returns the signal's number, or 0.
 int wait_for_signal(const sigset_t& signals, std::int64_t until_ns) {
   const std::int64_t left_ns = until_ns - monotonic_ns();
   const std::int64_t wait_ns = left_ns > 0 ? left_ns : 0;
@@ -49,20 +50,20 @@ int wait_for_signal(const sigset_t& signals, std::int64_t until_ns) {
   return signal > 0 ? signal : 0;
 }
 
-// Until a signal ends it or there is nothing left to play.
+// Returns when a signal asks to stop or a recording has ended.
 void serve(Service& service, const sigset_t& signals) {
-  constexpr std::int64_t kLook = 50'000'000;  // how soon the end of a recording is noticed
+  constexpr std::int64_t kTick_ns = 50'000'000;
   while (true) {
     service.tick();
     if (service.finished()) {
-      spdlog::info("the recording has played to its end; stopping");
+      spdlog::info("end of the recording, shutting down");
       return;
     }
-    const int signal = wait_for_signal(signals, monotonic_ns() + kLook);
+    const int signal = wait_for_signal(signals, monotonic_ns() + kTick_ns);
     if (signal == SIGHUP) {
       service.reload();
     } else if (signal != 0) {
-      spdlog::info("{} came; stopping", signal == SIGINT ? "SIGINT" : "SIGTERM");
+      spdlog::info("received {}, shutting down", signal == SIGINT ? "SIGINT" : "SIGTERM");
       return;
     }
   }
@@ -75,21 +76,19 @@ void run(const Config& config, const std::filesystem::path& file) {
   service.stop();
 }
 
-int complain(const std::string& sentence, int status) {
-  spdlog::error("{}", sentence);
+int fail(const std::string& message, int status) {
+  spdlog::error("{}", message);
   return status;
 }
 
 int main_with(int argc, char** argv) {
-  CLI::App app("stereod: rectified disparity from two cameras, published on LCM.");
+  CLI::App app("stereod: publishes rectified disparities of two cameras on LCM.");
   std::string config_file = "/etc/stereod/stereod.yaml";
   bool check_only = false;
-  app.add_option("--config", config_file, "the configuration")->capture_default_str();
-  CLI::Option* check =
-      app.add_flag("--check-config", check_only, "say whether the configuration can work, and end");
+  app.add_option("--config", config_file, "configuration file")->capture_default_str();
+  CLI::Option* check = app.add_flag("--check-config", check_only, "check the configuration and exit");
   bool list_only = false;
-  app.add_flag("--list-cameras", list_only,
-               "print every camera with its names, formats and controls, and end")
+  app.add_flag("--list-cameras", list_only, "print the names, formats and controls of every camera and exit")
       ->excludes(check);
   app.set_version_flag("--version", std::string("stereod ") + kVersion);
   try {
@@ -106,20 +105,20 @@ int main_with(int argc, char** argv) {
     const Config config = read_config(config_file);
     set_up_log(config.log_level);
     if (check_only) {
-      open_checked_rig(config, config_file);
-      std::printf("%s: nothing wrong with it\n", config_file.c_str());
+      open_checked_source(config, config_file);
+      std::printf("%s: OK\n", config_file.c_str());
     } else {
       run(config, config_file);
     }
     return 0;
   } catch (const BusError& error) {
-    return complain(error.what(), error.permanent() ? kExitConfig : kExitRetry);
+    return fail(error.what(), error.permanent() ? kExitConfig : kExitRetry);
   } catch (const FileError& error) {
-    return complain(error.what(), kExitConfig);
+    return fail(error.what(), kExitConfig);
   } catch (const std::invalid_argument& error) {
-    return complain(config_file + ": " + error.what(), kExitConfig);
+    return fail(config_file + ": " + error.what(), kExitConfig);
   } catch (const std::exception& error) {
-    return complain(std::string("stopped by an unexpected error: ") + error.what(), kExitRetry);
+    return fail(std::string("unexpected error: ") + error.what(), kExitRetry);
   }
 }
 
@@ -130,7 +129,7 @@ int main(int argc, char** argv) {
   try {
     return stereod::main_with(argc, argv);
   } catch (...) {
-    std::fputs("stereod: stopped by an unexpected error\n", stderr);
+    std::fputs("stereod: unexpected error\n", stderr);
     return stereod::kExitRetry;
   }
 }

@@ -1,4 +1,5 @@
-// The message bus that is LCM.
+// SPDX-License-Identifier: BSD-3-Clause
+// Publishes on LCM.
 #pragma once
 
 #include <mutex>
@@ -8,18 +9,20 @@
 
 namespace stereod {
 
-/// A URL that one can publish to, checked without opening anything. Throws a permanent BusError.
+/// Parses a URL to publish to and checks it without opening it.
+/// @throws BusError (permanent) if the URL is invalid or names a file that is not opened for writing.
 LcmUrl url_to_publish(const std::string& url);
 
-/// Publishes on LCM. It never subscribes, so LCM starts no thread and opens no port that receives.
+/// Publishes on LCM. Never subscribes, so LCM starts no thread and opens no receiving port.
 class LcmBus : public MessageBus {
  public:
-  /// `url` as in effective_lcm_url(); a file must be opened with mode=w or mode=a. Throws BusError.
+  /// @p url as in effective_lcm_url(); a file needs mode=w or mode=a.
+  /// @throws BusError
   explicit LcmBus(const std::string& url);
 
-  /// Allocates nothing with udpm after the first message, for which GLib makes a mutex (measured, LCM 1.3.1,
-  /// messages of 1 B to 2 MB); a log file takes one allocation a message. What does not fit in one datagram
-  /// (channel and data > 65,499 B) is sent in fragments.
+  /// With udpm, allocates nothing after the first message, for which GLib creates a mutex (measured with LCM
+  /// 1.3.1, messages of 1 B to 2 MB). A log file takes one allocation per message. A message larger than a
+  /// datagram (channel and data > kMaxDatagram) is sent in fragments.
   bool publish(const char* channel, const void* data, std::size_t size) noexcept override;
 
  private:

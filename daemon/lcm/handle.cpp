@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/lcm/handle.h"
 
 #include <arpa/inet.h>
@@ -13,8 +14,8 @@
 namespace stereod {
 namespace {
 
-/// 0, or the errno of connecting to the URL's multicast group: nothing is sent, but the kernel looks for a
-/// route.
+/// Returns 0, or the errno of connecting a UDP socket to the multicast group: sends nothing, but the kernel
+/// looks for a route.
 int route_error(const LcmUrl& url) {
   const auto [host, port] = udpm_address(url);
   sockaddr_in address{};
@@ -33,23 +34,23 @@ void check_route(const LcmUrl& url) {
   const int error = route_error(url);
   if (error == 0) return;
   if (error == ENETUNREACH) {
-    throw BusError("LCM has no network: no route leads to the multicast group of " + url.text() +
-                       "; 'sudo ip route add 224.0.0.0/4 dev lo' makes one within this machine "
-                       "(after 'sudo ip link set lo up' if the loopback interface is down).",
-                   false);
+    throw BusError(
+        "LCM URL '" + url.text() +
+            "': no route to the multicast group: for this machine only, run 'sudo ip "
+            "route add 224.0.0.0/4 dev lo' (after 'sudo ip link set lo up' if the loopback interface is down)",
+        false);
   }
-  throw BusError("LCM has no network: " + url.text() + " cannot be reached: " + std::strerror(error) + ".",
-                 false);
+  throw BusError(
+      "LCM URL '" + url.text() + "': the multicast group cannot be reached: " + std::strerror(error), false);
 }
 
-/// A log to read must be readable; one to write, its directory writable.
+/// Checks that a log to read is readable, or that the directory of a log to write is writable.
 void check_log_file(const LcmUrl& url) {
   const std::filesystem::path file = url.network;
   const bool reads = url.option("mode").value_or("r") == "r";
   const std::filesystem::path needed = reads ? file : std::filesystem::absolute(file).parent_path();
   if (access(needed.c_str(), reads ? R_OK : W_OK) == 0) return;
-  throw BusError("LCM URL '" + url.text() + "': " + needed.string() + ": " + std::strerror(errno) + ".",
-                 false);
+  throw BusError("LCM URL '" + url.text() + "': " + needed.string() + ": " + std::strerror(errno), false);
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ LcmHandle open_lcm(const LcmUrl& url) {
   if (url.provider == "file") check_log_file(url);
   LcmHandle lcm(lcm_create(url.text().c_str()));
   if (lcm) return lcm;
-  const std::string what = url.provider == "file" ? ": the log file cannot be opened." : ": LCM refuses it.";
+  const std::string what = url.provider == "file" ? ": the log file cannot be opened" : ": LCM refused it";
   throw BusError("LCM URL '" + url.text() + "'" + what, false);
 }
 

@@ -1,4 +1,5 @@
-// Opening LCM, with errors a person can act on.
+// SPDX-License-Identifier: BSD-3-Clause
+// Opens LCM, with errors that name the remedy.
 #pragma once
 
 #include <lcm/lcm.h>
@@ -11,12 +12,11 @@
 
 namespace stereod {
 
-/// Why LCM cannot be opened: one sentence, with the remedy.
+/// Says why LCM cannot be used and what to do.
 class BusError : public std::runtime_error {
  public:
-  BusError(const std::string& sentence, bool permanent)
-      : std::runtime_error(sentence), permanent_(permanent) {}
-  /// True if it can never work with this URL; false if it may once the machine's network (or disk) is ready.
+  BusError(const std::string& message, bool permanent) : std::runtime_error(message), permanent_(permanent) {}
+  /// Returns true if this URL can never work; false if it may work once the network (or disk) is ready.
   bool permanent() const noexcept { return permanent_; }
 
  private:
@@ -28,11 +28,13 @@ struct LcmDeleter {
 };
 using LcmHandle = std::unique_ptr<lcm_t, LcmDeleter>;
 
-/// Opens LCM. What is known to fail (a bad URL, no route for multicast) is found out first, so that LCM does
-/// not print its own lines about it. Throws BusError.
+/// Opens LCM. Checks for known failures (no multicast route, an unreadable file) first, because LCM would
+/// only print lines of its own about them.
+/// @throws BusError
 LcmHandle open_lcm(const LcmUrl& url);
 
-/// parse_lcm_url(effective_lcm_url(url)), with its exception turned into a permanent BusError.
+/// Returns parse_lcm_url(effective_lcm_url(url)).
+/// @throws BusError (permanent) if the URL is invalid.
 LcmUrl checked_lcm_url(const std::string& url);
 
 }  // namespace stereod

@@ -1,12 +1,13 @@
-// What fits on the wire.
+// SPDX-License-Identifier: BSD-3-Clause
+// Limits of messages.
 #pragma once
 
 #include "core/base/limits.h"
 
 namespace stereod {
 
-/// Channel name, its terminating zero and data; LCM 1.3.1 sends more in fragments, of which one lost loses
-/// all.
+/// Maximum channel name, its terminating zero and data in one datagram [bytes]. LCM 1.3.1 sends larger
+/// messages in fragments; a lost fragment loses the message.
 inline constexpr int kMaxDatagram = 65'499;
 
 }  // namespace stereod

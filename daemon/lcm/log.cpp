@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/lcm/log.h"
 
 #include <array>
@@ -9,8 +10,8 @@
 namespace stereod {
 namespace {
 
-// Before each message: this, its number (8 bytes), its time (8), the lengths of channel and data (4 each);
-// all of it big-endian.
+// The head of a message, big-endian: this word, the number (8 bytes) and the time (8) of the message, the
+// lengths of channel and data (4 each).
 constexpr std::array<std::uint8_t, 4> kSync{0xED, 0xA1, 0xDA, 0x01};
 constexpr std::size_t kHead = 28;
 constexpr std::size_t kMaxChannel = 1000;
@@ -28,11 +29,10 @@ void put_big_endian(std::uint8_t* bytes, int count, std::uint64_t value) {
 }  // namespace
 
 LcmLogReader::LcmLogReader(const std::filesystem::path& file) : file_(std::fopen(file.c_str(), "rbe")) {
-  if (!file_)
-    throw BusError(file.string() + ": the log cannot be opened: " + std::strerror(errno) + ".", false);
+  if (!file_) throw BusError(file.string() + ": the log cannot be opened: " + std::strerror(errno), false);
   std::array<std::uint8_t, 4> begin{};
   if (std::fread(begin.data(), 1, begin.size(), file_.get()) != begin.size() || begin != kSync) {
-    throw BusError(file.string() + ": this is no LCM log; lcm-logger and 'stereo-tap record' write them.",
+    throw BusError(file.string() + ": this is no LCM log (lcm-logger and 'stereo-tap record' write them)",
                    true);
   }
   std::rewind(file_.get());
@@ -43,8 +43,8 @@ bool LcmLogReader::next(LogEvent& event) {
   while (read_head(head)) {
     const auto channel = static_cast<std::size_t>(big_endian(&head[20], 4));
     const auto data = static_cast<std::size_t>(big_endian(&head[24], 4));
-    const bool sane = channel >= 1 && channel <= kMaxChannel && data <= kMaxMessage;
-    if (sane) {
+    const bool plausible = channel >= 1 && channel <= kMaxChannel && data <= kMaxMessage;
+    if (plausible) {
       event.utime = static_cast<std::int64_t>(big_endian(&head[12], 8));
       event.channel.resize(channel);
       event.data.resize(data);
@@ -59,7 +59,7 @@ bool LcmLogReader::next(LogEvent& event) {
   return false;
 }
 
-/// The next head; false at the end of the file. Skips what is none.
+/// Reads the next head; skips damaged places. Returns false at the end of the file.
 bool LcmLogReader::read_head(std::span<std::uint8_t> head) {
   while (true) {
     const std::size_t got = std::fread(head.data(), 1, head.size(), file_.get());
@@ -73,7 +73,7 @@ bool LcmLogReader::read_head(std::span<std::uint8_t> head) {
   }
 }
 
-/// Goes forward to the next sync word; false if there is none.
+/// Seeks to the next sync word. Returns false if there is none.
 bool LcmLogReader::find_sync() {
   std::size_t matched = 0;
   for (int c = std::fgetc(file_.get()); c != EOF; c = std::fgetc(file_.get())) {
@@ -111,7 +111,7 @@ void LcmLogWriter::finish() {
 }
 
 void LcmLogWriter::fail() const {
-  throw BusError(path_.string() + ": the log cannot be written: " + std::strerror(errno) + ".", false);
+  throw BusError(path_.string() + ": the log cannot be written: " + std::strerror(errno), false);
 }
 
 }  // namespace stereod

@@ -1,4 +1,5 @@
-// LCM's log files, as lcm-logger writes them, read and written without trusting them.
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads and writes LCM's log files. The reader does not trust their content.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +14,9 @@
 
 namespace stereod {
 
-/// One message of a log.
+/// One message in a log.
 struct LogEvent {
-  std::int64_t utime = 0;  ///< when it was received, µs since the Unix epoch
+  std::int64_t utime = 0;  ///< when it was received [µs since the Unix epoch]
   std::string channel;
   std::vector<std::byte> data;
 };
@@ -25,19 +26,19 @@ struct LogFileCloser {
 };
 using LogFile = std::unique_ptr<std::FILE, LogFileCloser>;
 
-/// Reads a log from its beginning, one message after the other.
+/// Reads the messages of a log in order.
 class LcmLogReader {
  public:
-  /// Throws BusError with a sentence if the file cannot be opened or does not begin like a log.
+  /// @throws BusError if the file cannot be opened or does not start like a log.
   explicit LcmLogReader(const std::filesystem::path& file);
 
-  /// False at the end. After a damaged place it goes on with the next message; see damaged_places().
+  /// Reads the next message; skips damaged places. Returns false at the end.
   bool next(LogEvent& event);
 
-  /// How often something in the file was no message: a log that was cut off in the middle has one such place.
+  /// Returns how many damaged places were skipped. A truncated log has one.
   int damaged_places() const { return damaged_places_; }
 
-  static constexpr std::size_t kMaxMessage = 64 << 20;  ///< bytes; more is taken for damage
+  static constexpr std::size_t kMaxMessage = 64 << 20;  ///< [bytes]; a larger one counts as damage
 
  private:
   bool read_head(std::span<std::uint8_t> head);
@@ -47,15 +48,18 @@ class LcmLogReader {
   int damaged_places_ = 0;
 };
 
-/// Writes a log that LCM's own tools read.
+/// Writes a log that LCM's own tools can read.
 class LcmLogWriter {
  public:
-  /// Replaces the file. Throws BusError with a sentence if that cannot be done.
+  /// Replaces the file.
+  /// @throws BusError if the file cannot be opened.
   explicit LcmLogWriter(const std::filesystem::path& file);
 
-  /// Throws BusError if it cannot be written (a full disk).
+  /// Appends a message received at @p utime [µs since the Unix epoch].
+  /// @throws BusError if the file cannot be written (a full disk).
   void write(std::int64_t utime, std::string_view channel, std::span<const std::byte> data);
-  /// Everything is in the file. Throws BusError.
+  /// Flushes everything to the file.
+  /// @throws BusError if the file cannot be written.
   void finish();
 
  private:

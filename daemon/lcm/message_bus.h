@@ -1,17 +1,18 @@
-// The seam between whoever has something to say and the network.
+// SPDX-License-Identifier: BSD-3-Clause
+// The interface between publishers and the network.
 #pragma once
 
 #include <cstddef>
 
 namespace stereod {
 
-/// Carries encoded messages to whoever listens. publish() may be called by several threads at once.
+/// Sends encoded messages. publish() may be called by several threads at once.
 class MessageBus {
  public:
   virtual ~MessageBus() = default;
 
-  /// Sends one message of `size` bytes on `channel` (1…63 characters); false if the network refused it.
-  /// Allocates nothing and does not wait for receivers.
+  /// Sends a message of @p size bytes on @p channel (1…63 characters). Returns false if the network refused
+  /// it. Does not wait for receivers.
   virtual bool publish(const char* channel, const void* data, std::size_t size) noexcept = 0;
 };
 

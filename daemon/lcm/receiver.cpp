@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/lcm/receiver.h"
 
 #include <algorithm>
@@ -8,10 +9,10 @@
 namespace stereod {
 namespace {
 
-// Less than this may lose rows of a 640 × 480 frame that arrives while the reader is busy.
-constexpr int kEnoughReceiveBuffer = 2 << 20;
+// A smaller buffer may lose rows of a 640×480 frame that arrives while the program is busy [bytes].
+constexpr int kMinReceiveBuffer = 2 << 20;
 
-/// LCM takes channels as regular expressions; this one means the name and nothing else.
+/// Returns a regular expression, as LCM takes for channels, that matches this name only.
 std::string literal_pattern(const std::string& channel) {
   std::string pattern;
   for (const char c : channel) {
@@ -30,7 +31,9 @@ LcmReceiver::LcmReceiver(const std::string& url)
 
 void LcmReceiver::subscribe(const std::string& channel, Handler handler) {
   if (channel.empty() || channel.size() > LCM_MAX_CHANNEL_NAME_LENGTH) {
-    throw BusError("channel '" + channel + "': a name has 1 to 63 characters.", true);
+    throw BusError(
+        "channel '" + channel + "': found " + std::to_string(channel.size()) + " characters, allowed 1…63",
+        true);
   }
   subscribe_pattern(literal_pattern(channel),
                     [handler = std::move(handler)](std::string_view, std::int64_t,
@@ -46,11 +49,10 @@ void LcmReceiver::subscribe_pattern(const std::string& pattern, AnyHandler handl
   lcm_subscription_t* subscription =
       lcm_subscribe(lcm_.get(), pattern.c_str(), &on_message, subscriptions_.back().get());
   if (subscription == nullptr || lcm_get_fileno(lcm_.get()) < 0) {
-    throw BusError(
-        "LCM cannot receive on " + url() +
-            ": what this machine sends does not come back to it. Look at its routes ('ip route get "
-            "239.255.76.67') and its firewall.",
-        false);
+    throw BusError("LCM cannot receive on " + url() +
+                       ": multicast sent by this machine does not come back; check its routes ('ip route get "
+                       "239.255.76.67') and its firewall",
+                   false);
   }
   lcm_subscription_set_queue_capacity(subscription, kQueueCapacity);
 }
@@ -60,11 +62,11 @@ bool LcmReceiver::receive(std::chrono::milliseconds timeout) {
   for (const auto& subscription : subscriptions_) {
     if (subscription->error) std::rethrow_exception(std::exchange(subscription->error, nullptr));
   }
-  if (result < 0) throw BusError("LCM delivers nothing more from " + url() + ".", false);
+  if (result < 0) throw BusError("LCM delivers no more messages from " + url(), false);
   return result > 0;
 }
 
-/// Called by LCM, which is C: no exception may pass through it, so it waits in the subscription.
+// LCM is C code, so no exception may pass through it; receive() rethrows it.
 void LcmReceiver::on_message(const lcm_recv_buf_t* message, const char* channel,
                              void* subscription) noexcept {
   auto& target = *static_cast<Subscription*>(subscription);
@@ -91,10 +93,10 @@ LcmUrl with_receive_buffer(LcmUrl url, int wanted, std::optional<int> limit) {
 }
 
 std::optional<std::string> receive_buffer_advice(std::optional<int> limit) {
-  if (!limit || *limit >= kEnoughReceiveBuffer) return std::nullopt;
-  return "the kernel limits receive buffers to " + std::to_string(*limit) +
-         " bytes, so rows may be lost on arrival; 'sudo sysctl -w net.core.rmem_max=" +
-         std::to_string(LcmReceiver::kReceiveBuffer) + "' raises the limit.";
+  if (!limit || *limit >= kMinReceiveBuffer) return std::nullopt;
+  return "net.core.rmem_max is " + std::to_string(*limit) +
+         " bytes, so received rows may be lost: run 'sudo sysctl -w net.core.rmem_max=" +
+         std::to_string(LcmReceiver::kReceiveBuffer) + "'";
 }
 
 }  // namespace stereod

@@ -1,4 +1,5 @@
-// Receiving from LCM in a client program.
+// SPDX-License-Identifier: BSD-3-Clause
+// Receives from LCM in a client program.
 #pragma once
 
 #include <chrono>
@@ -17,35 +18,36 @@
 
 namespace stereod {
 
-/// Subscribes with buffers large enough that a reader which is a little late loses nothing.
+/// Subscribes with buffers large enough for a program that is briefly late. One thread.
 class LcmReceiver {
  public:
-  /// Takes one message; its bytes are valid during the call.
+  /// Receives one message; its bytes are valid during the call.
   using Handler = std::function<void(std::span<const std::byte>)>;
 
-  /// `url` as in effective_lcm_url(). A udpm URL without recv_buf_size gets kReceiveBuffer, or as much of it
-  /// as the kernel allows. Throws BusError.
+  /// @p url as in effective_lcm_url(). A udpm URL without recv_buf_size gets kReceiveBuffer, or what the
+  /// kernel allows.
+  /// @throws BusError
   explicit LcmReceiver(const std::string& url);
 
-  /// Calls `handler` for each message on `channel` (not a pattern), from within receive(). Throws BusError if
-  /// the network does not carry multicast back to this machine.
+  /// Calls @p handler from receive() for each message on @p channel (a name, not a pattern).
+  /// @throws BusError if the network does not deliver multicast back to this machine.
   void subscribe(const std::string& channel, Handler handler);
 
-  /// Takes a message with its channel and the time it was received, µs since the Unix epoch.
+  /// Receives a message with its channel and the time of reception [µs since the Unix epoch].
   using AnyHandler = std::function<void(std::string_view, std::int64_t, std::span<const std::byte>)>;
 
-  /// The same for every channel that begins with `prefix` and '_'.
+  /// Does the same for every channel that starts with @p prefix and '_'.
   void subscribe_all(const std::string& prefix, AnyHandler handler);
 
-  /// Waits for one message and handles it; false if none came in time. Throws what the handler throws, and
-  /// BusError at the end of a log file.
+  /// Waits for one message and handles it. Returns false if none arrived in time.
+  /// @throws what the handler throws, and BusError at the end of a log file.
   bool receive(std::chrono::milliseconds timeout);
 
-  /// The URL in use, receive buffer included.
+  /// Returns the URL in use, receive buffer included.
   std::string url() const { return url_.text(); }
 
-  static constexpr int kReceiveBuffer = 4 << 20;  ///< bytes
-  static constexpr int kQueueCapacity = 10000;    ///< messages per channel; LCM's default is 30
+  static constexpr int kReceiveBuffer = 4 << 20;  ///< [bytes]
+  static constexpr int kQueueCapacity = 10000;    ///< [messages per channel]; LCM's default is 30
 
  private:
   struct Subscription {
@@ -60,15 +62,15 @@ class LcmReceiver {
   LcmHandle lcm_;
 };
 
-/// The most bytes the kernel lets a program ask for as a receive buffer (net.core.rmem_max); nothing if
-/// unknown.
+/// Returns the maximum receive buffer that the kernel allows (net.core.rmem_max) [bytes]; nothing if unknown.
 std::optional<int> kernel_receive_buffer_limit();
 
-/// `url` with a receive buffer of `wanted` bytes, or of `limit` if that is less, unless it has one already or
-/// is not udpm.
+/// Returns @p url with a receive buffer of min(wanted, limit) bytes. Returns it unchanged if it has one or is
+/// not udpm.
 LcmUrl with_receive_buffer(LcmUrl url, int wanted, std::optional<int> limit);
 
-/// What to do if `limit` is too small for a frame sent in one go, as a sentence; nothing if it is fine.
+/// Returns what to do if @p limit [bytes] is too small for a frame sent in a burst; nothing if it is
+/// sufficient.
 std::optional<std::string> receive_buffer_advice(std::optional<int> limit);
 
 }  // namespace stereod

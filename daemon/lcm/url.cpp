@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/lcm/url.h"
 
 #include <arpa/inet.h>
@@ -16,7 +17,7 @@ constexpr int kMaxReceiveBuffer = 1 << 30;
   throw std::invalid_argument("LCM URL '" + url + "': " + problem);
 }
 
-/// The whole of `text` as a decimal number in [min, max]; nothing if it is anything else.
+/// Returns @p text as a decimal number in [min, max]; nothing if it is not one.
 std::optional<int> parse_number(std::string_view text, int min, int max) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -39,7 +40,7 @@ std::vector<std::pair<std::string, std::string>> parse_options(std::string_view 
 
 void check_number_option(const std::string& text, const std::string& key, const std::string& value, int max) {
   if (parse_number(value, 0, max)) return;
-  refuse(text, key + " is '" + value + "', allowed is a whole number from 0 to " + std::to_string(max) + ".");
+  refuse(text, key + " is '" + value + "', allowed 0…" + std::to_string(max));
 }
 
 void check_udpm(const std::string& text, const LcmUrl& url) {
@@ -47,11 +48,11 @@ void check_udpm(const std::string& text, const LcmUrl& url) {
   const std::string host = url.network.substr(0, colon);
   in_addr address{};
   if (inet_pton(AF_INET, host.c_str(), &address) != 1 || !IN_MULTICAST(ntohl(address.s_addr))) {
-    refuse(text, "'" + host + "' is not a multicast address (224.0.0.0 to 239.255.255.255), for example " +
-                     std::string(kDefaultLcmUrl) + ".");
+    refuse(text, "'" + host + "' is not a multicast address (224.0.0.0…239.255.255.255), for example " +
+                     std::string(kDefaultLcmUrl));
   }
   if (colon < url.network.size() && !parse_number(url.network.substr(colon + 1), 1, 65535)) {
-    refuse(text, "'" + url.network.substr(colon + 1) + "' is not a port, allowed is 1 to 65535.");
+    refuse(text, "'" + url.network.substr(colon + 1) + "' is not a port, allowed 1…65535");
   }
   for (const auto& [key, value] : url.options) {
     if (key == "ttl") {
@@ -59,7 +60,7 @@ void check_udpm(const std::string& text, const LcmUrl& url) {
     } else if (key == "recv_buf_size") {
       check_number_option(text, key, value, kMaxReceiveBuffer);
     } else {
-      refuse(text, "unknown option '" + key + "', allowed are ttl and recv_buf_size.");
+      refuse(text, "unknown option '" + key + "', allowed ttl, recv_buf_size");
     }
   }
 }
@@ -93,7 +94,7 @@ std::string effective_lcm_url(const std::string& url) {
 LcmUrl parse_lcm_url(const std::string& text) {
   const std::size_t separator = text.find("://");
   if (separator == std::string::npos) {
-    refuse(text, "this is not PROVIDER://NETWORK, for example " + std::string(kDefaultLcmUrl) + ".");
+    refuse(text, "not of the form PROVIDER://NETWORK, for example " + std::string(kDefaultLcmUrl));
   }
   LcmUrl url;
   url.provider = text.substr(0, separator);
@@ -105,9 +106,9 @@ LcmUrl parse_lcm_url(const std::string& text) {
   if (url.provider == "udpm") {
     check_udpm(text, url);
   } else if (url.provider == "file") {
-    if (url.network.empty()) refuse(text, "the path of the log file is missing.");
+    if (url.network.empty()) refuse(text, "the path of the log file is missing");
   } else if (url.provider != "memq") {
-    refuse(text, "unknown provider '" + url.provider + "', allowed are udpm, file and memq.");
+    refuse(text, "unknown provider '" + url.provider + "', allowed udpm, file, memq");
   }
   return url;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/pipeline/band_worker.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ void BandWorker::run(const Job& job, RowRange blocks) noexcept {
   next_block_ = blocks.first;
   const RowRange band{job.publisher.block_rows(blocks.first).first,
                       job.publisher.block_rows(blocks.end - 1).end};
-  matcher_->use_masks(&job.left_mask, &job.right_mask);
+  matcher_->use_masks(&job.left.matched_mask(), &job.right.matched_mask());
   const RowRange input = matcher_->begin(band);
   for (int y = input.first; y < input.end; y += BandMatcher::kRowsAhead) {
     const RowRange rows{y, std::min(y + BandMatcher::kRowsAhead, input.end)};
@@ -32,16 +33,16 @@ void BandWorker::run(const Job& job, RowRange blocks) noexcept {
 
 void BandWorker::rectify_rows(const Job& job, RowRange band, RowRange rows) noexcept {
   for (int y = rows.first; y < rows.end; ++y) {
-    const std::uint8_t* left = rectify_row(job.left_map, job.pair.left, y, matcher_->left_row(y));
-    // Rows around the band are the neighbor's to copy.
+    const std::uint8_t* left = rectify_row(job.left.map(), job.pair.left, y, matcher_->left_row(y));
+    // The rows around the band belong to the neighboring workers.
     if (job.left_image != nullptr && y >= band.first && y < band.end) {
       std::copy_n(left, job.left_image->width(), job.left_image->row(y));
     }
-    rectify_row(job.right_map, job.pair.right, y, matcher_->right_row(y));
+    rectify_row(job.right.map(), job.pair.right, y, matcher_->right_row(y));
   }
 }
 
-// Into `out` go the columns that are matched; returns the whole row.
+// Writes the matched columns to @p out. Returns the whole row.
 const std::uint8_t* BandWorker::rectify_row(const RectifyMap& map, const FrameLease& frame, int y,
                                             std::uint8_t* out) noexcept {
   if (whole_row_.empty()) {

@@ -1,17 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/pipeline/epipolar_monitor.h"
 
 #include <algorithm>
 #include <ctime>
 #include <span>
-#include <vector>
 
 #include "daemon/base/clocks.h"
 
 namespace stereod {
 namespace {
 
-// Patches are missing where less than one in so many of the usual ones is found.
-constexpr double kMissing = 3;
+// Points are missing if fewer than 1 / kMissingFactor of the usual share is found.
+constexpr double kMissingFactor = 3;
 
 std::int64_t thread_cpu_ns() noexcept {
   timespec time{};
@@ -24,23 +24,24 @@ std::int64_t thread_cpu_ns() noexcept {
 EpipolarMonitor::EpipolarMonitor(Size image, int min_disparity, int disparities)
     : image_(image), probe_(image, min_disparity, disparities) {}
 
-// A quarter is put by, as long as there is less than what kSaved such frames earn.
-void EpipolarMonitor::earn(double ns) noexcept {
-  constexpr double kSaved = 400;
-  const double put_by = std::clamp(kSaved * ns - saved_ns_, 0.0, ns / 4);
-  saved_ns_ += put_by;
-  purse_ns_ = std::min(purse_ns_ + ns - put_by, kSaved * ns);
+// A quarter goes to the reserve until that holds the earnings of kMaxFrames such frames; so does the budget.
+void EpipolarMonitor::earn_budget(double ns) noexcept {
+  constexpr double kMaxFrames = 400;
+  const double saved = std::clamp(kMaxFrames * ns - reserve_ns_, 0.0, ns / 4);
+  reserve_ns_ += saved;
+  budget_ns_ = std::min(budget_ns_ + ns - saved, kMaxFrames * ns);
 }
 
-bool EpipolarMonitor::may_spend(EpipolarProbe::Reach reach) const noexcept {
-  return purse_ns_ > 0 || (reach == EpipolarProbe::Reach::kFar && purse_ns_ + saved_ns_ > 0);
+bool EpipolarMonitor::has_budget(EpipolarProbe::Reach reach) const noexcept {
+  return budget_ns_ > 0 || (reach == EpipolarProbe::Reach::kFar && budget_ns_ + reserve_ns_ > 0);
 }
 
-void EpipolarMonitor::spend(double ns, EpipolarProbe::Reach reach) noexcept {
-  purse_ns_ -= ns;
-  if (reach == EpipolarProbe::Reach::kFar && purse_ns_ < 0) {
-    const double taken = std::min(saved_ns_, -purse_ns_);
-    saved_ns_ -= taken, purse_ns_ += taken;
+void EpipolarMonitor::spend_budget(double ns, EpipolarProbe::Reach reach) noexcept {
+  budget_ns_ -= ns;
+  if (reach == EpipolarProbe::Reach::kFar && budget_ns_ < 0) {
+    const double taken = std::min(reserve_ns_, -budget_ns_);
+    reserve_ns_ -= taken;
+    budget_ns_ += taken;
   }
 }
 
@@ -53,99 +54,116 @@ void EpipolarMonitor::remember(const Point& point) noexcept {
   points_[count_++ % kPoints] = point;
   if (reach_ == EpipolarProbe::Reach::kFar) return;
   const double found = point.found ? 1 : 0;
-  found_lately_ += (found - found_lately_) / 24;
-  found_usually_ += (found - found_usually_) / 240;
-  if (found_lately_ < found_usually_ / kMissing) search_far();
+  recent_found_share_ += (found - recent_found_share_) / 24;
+  average_found_share_ += (found - average_found_share_) / 240;
+  if (recent_found_share_ < average_found_share_ / kMissingFactor) search_far();
 }
 
 void EpipolarMonitor::frame_matched(const ProbedFrame& left, const ProbedFrame& right,
                                     std::int64_t match_ns) noexcept {
-  const double earned = kShare * static_cast<double>(match_ns);
-  earn(earned);
+  const double earned = kBudgetShare * static_cast<double>(match_ns);
+  earn_budget(earned);
   EpipolarProbe::Reach reach;
   {
     const std::lock_guard lock(mutex_);
     matched_ns_ += match_ns;
     reach = reach_;
   }
-  if (!may_spend(reach)) return;
+  if (!has_budget(reach)) return;
   std::array<EpipolarMatch, EpipolarProbe::kPatches> matches;
   const std::int64_t begin = thread_cpu_ns();
   const EpipolarProbe::Result result = probe_.probe(left, right, reach, matches);
   const std::int64_t spent = thread_cpu_ns() - begin;
-  spend(static_cast<double>(spent), reach);
-  // What the machine took from a thread meanwhile is not to be paid for with minutes of blindness.
+  spend_budget(static_cast<double>(spent), reach);
+  // A probe that the system interrupts for long must not stop probing for minutes.
   constexpr double kMaxDebt = 200;  // frames
-  purse_ns_ = std::max(purse_ns_, -kMaxDebt * earned);
+  budget_ns_ = std::max(budget_ns_, -kMaxDebt * earned);
 
   const std::int64_t now = monotonic_ns();
   const std::lock_guard lock(mutex_);
   spent_ns_ += spent;
-  // What was found with another reach than the present one belongs to neither.
-  for (int i = 0; i < result.found && reach == reach_; ++i)
+  // Points found with another reach than the present one are dropped.
+  for (int i = 0; i < result.found && reach == reach_; ++i) {
     remember({now, true, matches[static_cast<std::size_t>(i)]});
+  }
   for (int i = 0; i < result.absent && reach == reach_; ++i) remember({now, false, {}});
 }
 
 EpipolarStats EpipolarMonitor::stats() {
   std::vector<Point> newest;
-  newest.reserve(kPoints);        // not while the matching thread may wait
-  std::size_t of_far_search = 0;  // of the newest
+  newest.reserve(kPoints);  // before the lock, so that the matching thread does not wait for the allocation
+  std::size_t far_points = 0;  // how many of the newest are of the present far search
   EpipolarStats stats;
   {
     const std::lock_guard lock(mutex_);
     for (std::size_t back = 1; back <= std::min(count_, kPoints); ++back) {
       newest.push_back(points_[(count_ - back) % kPoints]);
     }
-    if (reach_ == EpipolarProbe::Reach::kFar) of_far_search = count_ - far_since_;
+    if (reach_ == EpipolarProbe::Reach::kFar) far_points = count_ - far_since_;
     if (matched_ns_ > 0) stats.cost_share = static_cast<double>(spent_ns_) / static_cast<double>(matched_ns_);
   }
+  const Window window = select_window(newest, far_points);
+  stats.searched = window.searched;
+  if (window.searched > 0) {
+    stats.found_share = static_cast<double>(window.found.size()) / static_cast<double>(window.searched);
+  }
+  stats.epipolar_error = measured_error(window);
+  choose_reach(window, stats);
+  return stats;
+}
+
+EpipolarMonitor::Window EpipolarMonitor::select_window(const std::vector<Point>& newest,
+                                                       std::size_t far_points) const {
   const std::int64_t now = monotonic_ns();
-  std::vector<EpipolarMatch> found;
-  std::size_t found_by_far_search = 0;
+  Window window;
   for (const Point& point : newest) {
     const double age_s = static_cast<double>(now - point.at_ns) * 1e-9;
-    const bool enough = found.size() >= kEnough;
-    if (age_s > kMaxWindow_s || (age_s > kWindow_s && (enough || stats.searched >= kMany))) break;
-    const bool hardly_any = stats.searched >= kManyFar && 50 * found.size() < stats.searched;
-    if (of_far_search > 0 && stats.searched >= of_far_search && (enough || hardly_any)) break;
-    ++stats.searched;
+    const bool enough = window.found.size() >= kEnoughFound;
+    if (age_s > kMaxWindow_s || (age_s > kWindow_s && (enough || window.searched >= kEnoughSearched))) break;
+    const bool hardly_any = window.searched >= kEnoughFar && 50 * window.found.size() < window.searched;
+    if (far_points > 0 && window.searched >= far_points && (enough || hardly_any)) break;
+    ++window.searched;
     if (!point.found) continue;
-    found.push_back(point.match);
-    if (stats.searched <= of_far_search) ++found_by_far_search;
+    window.found.push_back(point.match);
+    if (window.searched <= far_points) ++window.found_far;
   }
-  if (stats.searched > 0) {
-    stats.found_share = static_cast<double>(found.size()) / static_cast<double>(stats.searched);
-  }
-  stats.epipolar_error = epipolar_error(found, image_);
-  const bool far_search_suffices = stats.epipolar_error && found_by_far_search == found.size();
-  if (!far_search_suffices) {
-    constexpr std::size_t kNewest = 16;
-    const auto clear = clear_misalignment(std::span(found).first(std::min(found_by_far_search, kNewest)));
-    if (clear) stats.epipolar_error = clear;
-  }
+  return window;
+}
 
-  constexpr double kTogether_px = 1;  // of a part: from there on, rows may lie beyond what a near search sees
+// While a far search has not replaced all older points, its newest few points may already show a clear
+// misalignment.
+std::optional<EpipolarError> EpipolarMonitor::measured_error(const Window& window) const {
+  const auto error = epipolar_error(window.found, image_);
+  const bool far_search_suffices = error && window.found_far == window.found.size();
+  if (far_search_suffices) return error;
+  constexpr std::size_t kNewest = 16;
+  const auto clear = clear_misalignment(std::span(window.found).first(std::min(window.found_far, kNewest)));
+  return clear ? clear : error;
+}
+
+void EpipolarMonitor::choose_reach(const Window& window, EpipolarStats& stats) noexcept {
+  // Of the worst part of the image: above it, points may lie beyond the reach of the near search.
+  constexpr double kAligned_px = 1;
+  constexpr double kUpdateWeight = 0.05;  // small, because lost calibration takes some seconds to show
   const std::lock_guard lock(mutex_);
-  bool together = stats.epipolar_error && stats.epipolar_error->worst_px < kTogether_px;
-  // Where the true rows are out of reach, what little is found is found by chance: it can say that rows are
-  // apart, but not that they are not.
-  if (together && stats.found_share < found_together_ / kMissing) {
+  bool aligned = stats.epipolar_error && stats.epipolar_error->worst_px < kAligned_px;
+  // If the true rows are out of reach, the few points found are chance matches. They can show a misalignment
+  // but not exclude one.
+  if (aligned && stats.found_share < usual_found_share_ / kMissingFactor) {
     stats.epipolar_error.reset();
-    together = false;
+    aligned = false;
   }
-  constexpr double kSlowly = 0.05;  // a knock takes the window's few seconds to show
-  if (together) {
-    found_together_ += (stats.found_share - found_together_) * (found_together_ > 0 ? kSlowly : 1);
+  if (aligned) {
+    usual_found_share_ +=
+        (stats.found_share - usual_found_share_) * (usual_found_share_ > 0 ? kUpdateWeight : 1);
   }
-  stats.usual_share = found_together_;
+  stats.usual_share = usual_found_share_;
   if (reach_ == EpipolarProbe::Reach::kNear) {
-    if (stats.epipolar_error && !together) search_far();
-  } else if (together && found_by_far_search >= kEnough / 2) {
+    if (stats.epipolar_error && !aligned) search_far();
+  } else if (aligned && window.found_far >= kEnoughFound / 2) {
     reach_ = EpipolarProbe::Reach::kNear;
-    found_lately_ = found_usually_ = stats.found_share;
+    recent_found_share_ = average_found_share_ = stats.found_share;
   }
-  return stats;
 }
 
 }  // namespace stereod

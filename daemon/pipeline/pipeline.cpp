@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/pipeline/pipeline.h"
 
 #include <algorithm>
@@ -13,23 +14,6 @@
 namespace stereod {
 namespace {
 
-constexpr double kMaxPacing = 0.1;  // s; slow cameras need no more, and a stop should not wait for it
-
-WireFormat wire_format(const Config& config, Size published, const std::string& calibration_id = {}) {
-  WireFormat format;
-  format.prefix = config.lcm.prefix;
-  format.calibration_id = calibration_id;
-  format.min_disparity = config.matcher.min_disparity;
-  format.disparities = config.matcher.disparities;
-  format.units_per_pixel = config.matcher.units_per_pixel();
-  format.with_depth = config.publish.depth;
-  format.rows_per_message =
-      config.lcm.rows_per_message.value_or(usual_rows_per_message(format, published.width));
-  const double fps = config.cameras.fps > 0 ? config.cameras.fps : 30;
-  format.pacing_s = std::min(config.lcm.pacing / fps, kMaxPacing);
-  return format;
-}
-
 std::string describe(const Config& config) {
   std::string text(name_of(config.matcher.method));
   text += " ";
@@ -41,11 +25,12 @@ std::string describe(const Config& config) {
   return text + ", " + std::to_string(workers) + (workers == 1 ? " worker" : " workers");
 }
 
-// What is published of images of this size. Throws std::invalid_argument if there is no such region.
+/// Returns the published pixels of images of this size.
+/// @throws std::invalid_argument if the images are too large or do not contain the region.
 PublishedPixels published_pixels(const PublishConfig& publish, Size size) {
   if (size.width > kMaxImageSide || size.height > kMaxImageSide) {
-    throw std::invalid_argument("the cameras give images of " + to_string(size) +
-                                "; what can be published is " + std::to_string(kMaxImageSide) + " a side");
+    throw std::invalid_argument("found images of " + to_string(size) + " px, allowed: up to " +
+                                std::to_string(kMaxImageSide) + " px per side");
   }
   if (const auto problem = region_problem(publish, size)) throw std::invalid_argument(*problem);
   return {publish, size};
@@ -53,36 +38,29 @@ PublishedPixels published_pixels(const PublishConfig& publish, Size size) {
 
 SourceLayout layout_of(const LumaView& luma) { return {luma.size, luma.row_stride, luma.pixel_stride}; }
 
+FrameTiming origin_of(const LeasedPair& pair, std::int64_t frame) {
+  FrameTiming timing;
+  timing.frame = frame;
+  const std::int64_t recorded_utime = pair.left.frame().utime;
+  timing.utime = recorded_utime != 0 ? recorded_utime : wall_us_of(pair.left_ns);
+  timing.left_ns = pair.left_ns;
+  timing.right_ns = pair.right_ns;
+  timing.left_sequence = pair.left.frame().sequence;
+  timing.right_sequence = pair.right.frame().sequence;
+  return timing;
+}
+
 }  // namespace
 
 void check_pipeline(const Config& config, Size size) {
   const PublishedPixels pixels = published_pixels(config.publish, size);
-  if (const auto problem = wire_problem(wire_format(config, pixels.size()), pixels.size()))
+  if (const auto problem = wire_problem(wire_format(config, pixels.size()), pixels.size())) {
     throw std::invalid_argument(*problem);
+  }
   BandWorker(config.matcher, size, pixels.columns());
 }
 
-// What else is made of the rows; needs a calibration.
-RowFollowers Pipeline::make_followers(MessageBus& bus) {
-  if (!calibration_) return {};
-  const std::string& prefix = config_.lcm.prefix;
-  RowFollowers followers;
-  if (config_.scan.enabled) {
-    followers.scan =
-        &scan_publisher_.emplace(bus, prefix, config_.scan, scan_geometry(*calibration_, config_.matcher));
-  }
-  if (config_.publish.depth) {
-    followers.depth = &depth_publisher_.emplace(bus, prefix, *calibration_, config_.matcher, pixels_,
-                                                wire_format(config_, pixels_.size()).rows_per_message);
-  }
-  if (config_.publish.cloud) {
-    followers.cloud = &cloud_publisher_.emplace(bus, prefix, *calibration_, config_.matcher, pixels_,
-                                                config_.publish.cloud_decimation);
-  }
-  return followers;
-}
-
-// The braces see to it that the calibration is copied before the rig is moved.
+// Braces fix the order of evaluation: the calibration is copied before the rig is moved.
 Pipeline::Pipeline(const Config& config, StereoSource rig, MessageBus& bus)
     : Pipeline{config, std::optional<Calibration>(rig.calibration),
                std::make_shared<StereoCapture>(config.cameras, std::move(rig)), bus} {
@@ -98,9 +76,14 @@ Pipeline::Pipeline(const Config& config, std::optional<Calibration> calibration,
       size_(cameras_->rig().left->frame_size()),
       pixels_(published_pixels(config.publish, size_)),
       matcher_description_(describe(config)),
+      row_consumers_(make_row_consumers(bus, config, calibration_, pixels_)),
       publisher_(bus, wire_format(config, pixels_.size(), calibration_ ? calibration_->id : ""), size_,
-                 pixels_, make_followers(bus)),
+                 pixels_, references_to(row_consumers_)),
       pool_(config.worker_count()),
+      left_(calibration_ ? &calibration_->left : nullptr, config.rectify.interpolation,
+            columns_to_match(config.matcher, size_, pixels_.columns())),
+      right_(calibration_ ? &calibration_->right : nullptr, config.rectify.interpolation,
+             columns_to_match(config.matcher, size_, pixels_.columns())),
       epipolar_monitor_(size_, config.matcher.min_disparity, config.matcher.disparities) {
   for (int worker = 0; worker < pool_.workers(); ++worker) {
     workers_.emplace_back(config.matcher, size_, pixels_.columns());
@@ -116,7 +99,7 @@ Pipeline::Pipeline(const Config& config, std::optional<Calibration> calibration,
   }
   const auto left = cameras_->pair_queue().layout(Side::kLeft);
   const auto right = cameras_->pair_queue().layout(Side::kRight);
-  if (left && right) prepare_maps(*left, *right);
+  if (left && right) prepare_rectification(*left, *right);
 }
 
 Pipeline::~Pipeline() { stop(); }
@@ -135,14 +118,14 @@ void Pipeline::take_over(Pipeline& other) {
   if (cameras_ != other.cameras_) {
     other.cameras_->stop();
     cameras_->count_on_from(*other.cameras_);
-    other.cameras_.reset();  // which closes the devices
+    other.cameras_.reset();  // closes the devices, which these cameras may need
     cameras_->start();
   }
   other.cameras_.reset();
   start();
 }
 
-// Ends the frame it is at and sends it all; the cameras go on.
+// Finishes and sends the current frame; the cameras keep running.
 void Pipeline::retire() noexcept {
   retiring_ = true;
   cameras_->pair_queue().wake_consumer();
@@ -157,17 +140,20 @@ void Pipeline::stop() noexcept {
   if (raw_publisher_) raw_publisher_->stop();
   if (left_publisher_) left_publisher_->stop();
   if (matching_thread_.joinable()) matching_thread_.join();
-  if (started_) cameras_->pair_queue().clear();  // the leases end before their sources do
+  if (started_) cameras_->pair_queue().clear();  // leases must end before their sources
 }
 
 std::int64_t Pipeline::frames_published() const noexcept { return frames_before_ + publisher_.frames(); }
 
+std::int64_t Pipeline::images_refused() const noexcept {
+  return (raw_publisher_ ? raw_publisher_->refused() : 0) +
+         (left_publisher_ ? left_publisher_->refused() : 0);
+}
+
 PipelineStats Pipeline::take_stats() {
   PipelineStats stats{cameras_->stats(), publisher_.take_stats(), epipolar_monitor_.stats()};
   stats.published.frames += frames_before_;
-  stats.published.messages_refused += refused_before_;
-  if (raw_publisher_) stats.published.messages_refused += raw_publisher_->refused();
-  if (left_publisher_) stats.published.messages_refused += left_publisher_->refused();
+  stats.published.messages_refused += refused_before_ + images_refused();
   return stats;
 }
 
@@ -181,7 +167,7 @@ void Pipeline::matching_thread() noexcept {
     const std::lock_guard lock(scheduling_mutex_);
     scheduling_problem_ = schedule_workers(pool_, config_.scheduling);
   }
-  while (OutputFrame* output = publisher_.wait_free()) {
+  while (OutputFrame* output = publisher_.acquire_frame()) {
     std::optional<LeasedPair> pair = cameras_->pair_queue().wait_pair(retiring_);
     if (!pair || stopping_) break;
     match_pair(*pair, *output);
@@ -191,51 +177,32 @@ void Pipeline::matching_thread() noexcept {
 }
 
 void Pipeline::match_pair(const LeasedPair& pair, OutputFrame& output) {
+  const LumaView& left = pair.left.frame().luma;
+  const LumaView& right = pair.right.frame().luma;
   FrameTiming& timing = output.timing;
-  timing.frame = next_frame_++;
-  const std::int64_t own_utime = pair.left.frame().utime;
-  timing.utime = own_utime != 0 ? own_utime : wall_us_of(pair.left_ns);
-  timing.left_ns = pair.left_ns;
-  timing.right_ns = pair.right_ns;
-  timing.left_sequence = pair.left.frame().sequence;
-  timing.right_sequence = pair.right.frame().sequence;
-  prepare_maps(layout_of(pair.left.frame().luma), layout_of(pair.right.frame().luma));
+  timing = origin_of(pair, next_frame_++);
+  prepare_rectification(layout_of(left), layout_of(right));
   timing.started_ns = monotonic_ns();
   run_workers(pair, output);
-  timing.filter_ns = 0;
   if (speckle_filter_) filter_frame(output);
   timing.matched_ns = monotonic_ns();
   const std::int64_t match_ns = timing.matched_ns - timing.started_ns;
-  publisher_.frame_final(output);
-  // After what is urgent.
-  epipolar_monitor_.frame_matched({*left_map_, *left_masks_.whole, pair.left.frame().luma.data},
-                                  {*right_map_, *right_masks_.whole, pair.right.frame().luma.data}, match_ns);
-  if (raw_publisher_) raw_publisher_->offer(pair, timing.utime);
+  const std::int64_t utime = timing.utime;
+  publisher_.frame_final(output);  // from here on the publisher owns the frame
+  // Work that is not urgent comes last.
+  epipolar_monitor_.frame_matched({left_.map(), left_.mask(), left.data},
+                                  {right_.map(), right_.mask(), right.data}, match_ns);
+  if (raw_publisher_) raw_publisher_->offer({left, utime}, {right, utime + pair.skew_ns() / 1000});
 }
 
-// The tables are made when the first frame shows how its pixels lie in memory, and again if that ever
-// changes.
-void Pipeline::prepare_maps(const SourceLayout& left, const SourceLayout& right) {
-  const Interpolation interpolation = config_.rectify.interpolation;
-  const ColumnRange matched = columns_to_match(config_.matcher, size_, pixels_.columns());
-  const auto prepare = [&](std::optional<RectifyMap>& map, Masks& masks, const SourceLayout& layout,
-                           const CameraCalibration* camera) {
-    if (map && map->layout() == layout) return;
-    map.emplace(camera != nullptr ? RectifyMap(*camera, layout, interpolation)
-                                  : RectifyMap::identity(layout));
-    masks.whole.emplace(map->mask());
-    if (matched.count() == size_.width) return;
-    masks.matched.emplace(Size{matched.count(), size_.height},
-                          [&](int x, int y) { return map->offset(matched.first + x, y) >= 0; });
-  };
-  prepare(left_map_, left_masks_, left, calibration_ ? &calibration_->left : nullptr);
-  prepare(right_map_, right_masks_, right, calibration_ ? &calibration_->right : nullptr);
+void Pipeline::prepare_rectification(const SourceLayout& left, const SourceLayout& right) {
+  left_.prepare(left);
+  right_.prepare(right);
 }
 
 void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {
-  GrayImage* const left_image = left_publisher_ ? left_publisher_->take_if_due() : nullptr;
-  const BandWorker::Job job{pair,   *left_map_, *right_map_, left_masks_.matching(), right_masks_.matching(),
-                            output, publisher_, left_image,  !speckle_filter_};
+  GrayImage* const left_image = left_publisher_ ? left_publisher_->claim() : nullptr;
+  const BandWorker::Job job{pair, left_, right_, output, publisher_, left_image, !speckle_filter_};
   const int blocks = publisher_.blocks();
   const int bands = std::min(pool_.workers(), blocks);
   pool_.run(bands, [&](int band, int /*worker*/) {
@@ -248,12 +215,15 @@ void Pipeline::run_workers(const LeasedPair& pair, OutputFrame& output) {
   }
   output.timing.rectify_ns = rectify_ns / bands;
   output.timing.match_ns = match_ns / bands;
-  if (left_image == nullptr) return;
-  // The left image is a whole one, whatever was matched.
+  if (left_image != nullptr) submit_left_image(pair, *left_image, output.timing.utime);
+}
+
+// The workers copied the published rows only; the left image has all rows.
+void Pipeline::submit_left_image(const LeasedPair& pair, GrayImage& image, std::int64_t utime) {
   const std::uint8_t* source = pair.left.frame().luma.data;
-  left_map_->gray_rows(source, {0, pixels_.rows().first}, left_image->view());
-  left_map_->gray_rows(source, {pixels_.rows().end, size_.height}, left_image->view());
-  left_publisher_->send(output.timing.utime);
+  left_.map().gray_rows(source, {0, pixels_.rows().first}, image.view());
+  left_.map().gray_rows(source, {pixels_.rows().end, size_.height}, image.view());
+  left_publisher_->submit(utime);
 }
 
 void Pipeline::filter_frame(OutputFrame& output) noexcept {

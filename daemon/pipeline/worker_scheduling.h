@@ -1,4 +1,5 @@
-// Real-time priority and CPUs of the threads that match.
+// SPDX-License-Identifier: BSD-3-Clause
+// Real-time priority and CPU affinity of the matching threads.
 #pragma once
 
 #include <string>
@@ -8,9 +9,9 @@
 
 namespace stereod {
 
-/// Gives every thread of the pool, the calling one among them, the priority and the CPUs that the
-/// configuration asks for. What the system refused, as a sentence; empty if all is as it should be. To be
-/// called by the thread that will call run(), before it does.
+/// Applies the configured priority and CPUs to every thread of @p pool, the calling thread included. Call it
+/// on the thread that will call run(), before the first run(). Returns a "; "-separated list of settings that
+/// the system refused, each with the remedy; empty on success.
 std::string schedule_workers(WorkerPool& pool, const SchedulingConfig& scheduling);
 
 }  // namespace stereod

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/publish/depth_publisher.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace {
 
 std::uint16_t in_mm(double meters) {
   constexpr double kMax = DepthPublisher::kFarthest;
-  // What is measured is never 0, which means that it is not.
+  // 0 means "not known", so a measured depth is at least 1.
   return static_cast<std::uint16_t>(std::clamp(std::round(meters * 1000), 1.0, kMax));
 }
 
@@ -28,7 +29,7 @@ std::vector<double> depths_of_disparities(const Calibration& calibration, const 
 }
 
 DepthPublisher::DepthPublisher(MessageBus& bus, const std::string& prefix, const Calibration& calibration,
-                               const MatcherOptions& matcher, const PublishedPixels& pixels, int rows)
+                               const MatcherOptions& matcher, const PublishedPixels& pixels, int max_rows)
     : bus_(bus), channel_(prefix + "_DEPTH"), encoder_(kMaxDatagram) {
   for (const double meters : depths_of_disparities(calibration, matcher)) depth_mm_.push_back(in_mm(meters));
   message_.width = pixels.width;
@@ -37,20 +38,24 @@ DepthPublisher::DepthPublisher(MessageBus& bus, const std::string& prefix, const
   message_.top = pixels.top;
   message_.decimation_x = pixels.decimation_x;
   message_.decimation_y = pixels.decimation_y;
-  message_.data.reserve(static_cast<std::size_t>(rows * pixels.width * kBytesPerValue));
+  message_.data.reserve(bytes_for_rows(max_rows));
 }
 
-bool DepthPublisher::send_rows(const FrameTiming& timing, DisparityView disparity, RowRange rows) noexcept {
-  message_.utime = timing.utime;
-  message_.frame = timing.frame;
-  message_.first_row = rows.first;
-  message_.row_count = rows.count();
-  message_.size = rows.count() * message_.width * kBytesPerValue;
-  message_.data.resize(static_cast<std::size_t>(message_.size));
+std::size_t DepthPublisher::bytes_for_rows(int rows) const noexcept {
+  return static_cast<std::size_t>(rows * message_.width * kBytesPerValue);
+}
+
+void DepthPublisher::take_rows(const FinalRows& rows) noexcept {
+  message_.utime = rows.timing.utime;
+  message_.frame = rows.timing.frame;
+  message_.first_row = rows.published.first;
+  message_.row_count = rows.published.count();
+  message_.data.resize(bytes_for_rows(message_.row_count));
+  message_.size = static_cast<std::int32_t>(message_.data.size());
   const std::size_t last = depth_mm_.size() - 1;
   std::uint8_t* out = message_.data.data();
-  for (int v = rows.first; v < rows.end; ++v) {
-    const std::int16_t* in = disparity.row(message_.top + v * message_.decimation_y) + message_.left;
+  for (int v = rows.published.first; v < rows.published.end; ++v) {
+    const std::int16_t* in = rows.disparity.row(message_.top + v * message_.decimation_y) + message_.left;
     for (int u = 0; u < message_.width; ++u, out += kBytesPerValue) {
       const std::int16_t value = in[std::ptrdiff_t{u} * message_.decimation_x];
       const unsigned mm = value < 0 ? 0U : depth_mm_[std::min(static_cast<std::size_t>(value), last)];
@@ -58,7 +63,7 @@ bool DepthPublisher::send_rows(const FrameTiming& timing, DisparityView disparit
       out[1] = static_cast<std::uint8_t>(mm >> 8);
     }
   }
-  return encoder_.publish(bus_, channel_.c_str(), message_);
+  if (!encoder_.publish(bus_, channel_.c_str(), message_)) ++refused_;
 }
 
 }  // namespace stereod

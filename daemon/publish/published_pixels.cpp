@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/publish/published_pixels.h"
 
 #include <algorithm>
@@ -7,9 +8,9 @@
 namespace stereod {
 namespace {
 
-int published(int first, int count, int step, int side) {
+int published(int first, int count, int decimation, int side) {
   const int pixels = count > 0 ? count : side - first;
-  return (pixels + step - 1) / step;
+  return (pixels + decimation - 1) / decimation;
 }
 
 }  // namespace
@@ -28,23 +29,21 @@ std::optional<std::string> region_problem(const PublishConfig& publish, Size ima
       !outside(publish.top, publish.height, image.height)) {
     return std::nullopt;
   }
-  const auto numbers = [](int width, int height, int left, int top) {
-    return to_string(Size{width, height}) + " pixels from column " + std::to_string(left) + ", row " +
-           std::to_string(top) + " on";
-  };
-  return "found " + numbers(publish.width, publish.height, publish.left, publish.top) +
-         " (0: up to the edge), but the images are " + to_string(image) + "; allowed is what lies in them";
+  return "found " + to_string(Size{publish.width, publish.height}) + " px at column " +
+         std::to_string(publish.left) + ", row " + std::to_string(publish.top) +
+         " (0: up to the edge), allowed: a region inside the image of " + to_string(image) + " px";
 }
 
 ColumnRange columns_to_match(const MatcherOptions& options, Size image, ColumnRange wanted) {
-  // The paths of the semi-global one go along whole rows.
   if (options.method == Method::kSemiglobal) return {0, image.width};
-  // A window, the pixels beside it that the prefilter looks at, and the neighbors of the median.
-  const int around = options.window / 2 + options.median / 2 + 1;
-  const int farthest = options.min_disparity + options.disparities;
-  // A pixel's match is to the left of it; the match's own match may be to the right of the pixel.
+  // Half a window, the neighbor that the prefilter reads, and the neighbors that the median reads.
+  const int margin = options.window / 2 + options.median / 2 + 1;
+  const int max_disparity = options.min_disparity + options.disparities;
+  // The match of a pixel is to its left. With the left-right check, matches of the match are to the right of
+  // the pixel.
   const int right = options.left_right_max_diff >= 0 ? options.disparities : 0;
-  return {std::max(wanted.first - farthest - around, 0), std::min(wanted.end + right + around, image.width)};
+  return {std::max(wanted.first - max_disparity - margin, 0),
+          std::min(wanted.end + right + margin, image.width)};
 }
 
 }  // namespace stereod

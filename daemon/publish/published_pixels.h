@@ -1,4 +1,5 @@
-// Which pixels of the rectified image are published, and what has to be matched for them.
+// SPDX-License-Identifier: BSD-3-Clause
+// The pixels of the rectified image that are published, and the columns to match for them.
 #pragma once
 
 #include <optional>
@@ -10,29 +11,32 @@
 
 namespace stereod {
 
-/// Pixel (u, v) of what is published is pixel (left + u·decimation_x, top + v·decimation_y) of the rectified
-/// image.
+/// The published image: its pixel (u, v) is pixel (left + u·decimation_x, top + v·decimation_y) of the
+/// rectified image.
 struct PublishedPixels {
-  int left = 0, top = 0;
-  int decimation_x = 1, decimation_y = 1;
-  int width = 0, height = 0;  ///< how many columns and rows are published
+  int left = 0, top = 0;                   ///< [px of the rectified image]
+  int decimation_x = 1, decimation_y = 1;  ///< [px of the rectified image, ≥ 1]
+  int width = 0, height = 0;               ///< of the published image [px]
 
-  /// Those that the configuration asks for; region_problem() found nothing wrong with it.
+  /// Returns the pixels that the configuration selects. region_problem() must have returned nothing.
   PublishedPixels(const PublishConfig& publish, Size image);
-  /// All of an image.
+  /// Returns all pixels of an image.
   explicit PublishedPixels(Size image) : PublishedPixels(PublishConfig(), image) {}
 
   Size size() const { return {width, height}; }
-  /// In the rectified image, from the first published one to the last.
+  /// Returns the columns of the rectified image from the first published one to the last.
   ColumnRange columns() const { return {left, left + (width - 1) * decimation_x + 1}; }
+  /// Returns the rows of the rectified image from the first published one to the last.
   RowRange rows() const { return {top, top + (height - 1) * decimation_y + 1}; }
 };
 
-/// Why images of this size have no such region, as a sentence; nothing if they have.
+/// Returns why the configured region does not lie in images of this size: what was found, what is allowed.
+/// Returns nothing if it does.
 std::optional<std::string> region_problem(const PublishConfig& publish, Size image);
 
-/// The columns that have to be matched so that `wanted` get the answers that they would get in the whole
-/// image: those that windows, filters and the search for matches look at; for the semi-global matcher all.
+/// Returns the columns to match so that the @p wanted columns get the disparities of a match of the whole
+/// image: the columns that their windows, filters and searches read. The semi-global matcher needs all
+/// columns.
 ColumnRange columns_to_match(const MatcherOptions& options, Size image, ColumnRange wanted);
 
 }  // namespace stereod

@@ -1,14 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/publish/raw_publisher.h"
 
 #include <cstring>
 
-#include "daemon/base/clocks.h"
 #include "daemon/lcm/pixel_format_codes.h"
 
 namespace stereod {
 namespace {
 
-constexpr std::size_t kHeader = 128;  // the message's other fields
+constexpr std::size_t kHeader = 128;  // the other fields of the message [bytes]
 
 image_t empty_image(Size size) {
   image_t image{};
@@ -21,46 +21,9 @@ image_t empty_image(Size size) {
   return image;
 }
 
-}  // namespace
-
-RawPublisher::RawPublisher(MessageBus& bus, const std::string& prefix, double pairs_per_second, Size size)
-    : bus_(bus),
-      left_channel_(prefix + "_LEFT_RAW"),
-      right_channel_(prefix + "_RIGHT_RAW"),
-      period_ns_(static_cast<std::int64_t>(1e9 / pairs_per_second)),
-      left_(empty_image(size)),
-      right_(empty_image(size)),
-      encoder_(left_.data.size() + kHeader),
-      thread_([this] { run(); }) {}
-
-RawPublisher::~RawPublisher() { stop(); }
-
-void RawPublisher::stop() noexcept {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
-}
-
-void RawPublisher::offer(const LeasedPair& pair, std::int64_t utime) noexcept {
-  const std::int64_t now = monotonic_ns();
-  if (now < next_ns_) return;
-  {
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock || full_) return;
-    copy(pair.left.frame().luma, left_);
-    copy(pair.right.frame().luma, right_);
-    left_.utime = utime;
-    right_.utime = left_.utime + pair.skew_ns() / 1000;
-    full_ = true;
-  }
-  next_ns_ = now + period_ns_;
-  changed_.notify_one();
-}
-
-void RawPublisher::copy(const LumaView& luma, image_t& image) noexcept {
+void copy(const RawImage& raw, image_t& image) noexcept {
+  const LumaView& luma = raw.luma;
+  image.utime = raw.utime;
   std::uint8_t* out = image.data.data();
   for (int y = 0; y < image.height; ++y, out += image.width) {
     const std::uint8_t* row = luma.data + y * luma.row_stride;
@@ -72,18 +35,26 @@ void RawPublisher::copy(const LumaView& luma, image_t& image) noexcept {
   }
 }
 
-void RawPublisher::run() noexcept {
-  std::unique_lock lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [this] { return stopping_ || full_; });
-    if (stopping_) return;
-    // Nobody writes to the images while they are full.
-    lock.unlock();
-    if (!encoder_.publish(bus_, left_channel_.c_str(), left_)) ++refused_;
-    if (!encoder_.publish(bus_, right_channel_.c_str(), right_)) ++refused_;
-    lock.lock();
-    full_ = false;
-  }
+}  // namespace
+
+RawPublisher::RawPublisher(MessageBus& bus, const std::string& prefix, double pairs_per_second, Size size)
+    : bus_(bus),
+      left_channel_(prefix + "_LEFT_RAW"),
+      right_channel_(prefix + "_RIGHT_RAW"),
+      left_(empty_image(size)),
+      right_(empty_image(size)),
+      encoder_(left_.data.size() + kHeader),
+      publisher_(pairs_per_second, [this] {
+        const bool left_sent = encoder_.publish(bus_, left_channel_.c_str(), left_);
+        const bool right_sent = encoder_.publish(bus_, right_channel_.c_str(), right_);
+        return (left_sent ? 0 : 1) + (right_sent ? 0 : 1);
+      }) {}
+
+void RawPublisher::offer(const RawImage& left, const RawImage& right) noexcept {
+  if (!publisher_.claim()) return;
+  copy(left, left_);
+  copy(right, right_);
+  publisher_.submit();
 }
 
 }  // namespace stereod

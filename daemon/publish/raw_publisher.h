@@ -1,57 +1,49 @@
-// What the cameras see, on request.
+// SPDX-License-Identifier: BSD-3-Clause
+// The outputs PREFIX_LEFT_RAW and PREFIX_RIGHT_RAW: the images of the cameras.
 #pragma once
 
-#include <atomic>
-#include <condition_variable>
 #include <cstdint>
-#include <mutex>
 #include <string>
-#include <thread>
 
-#include "daemon/capture/frame_source.h"
-#include "daemon/capture/pair_queue.h"
+#include "core/base/luma_view.h"
 #include "daemon/lcm/message_bus.h"
 #include "daemon/lcm/message_encoder.h"
+#include "daemon/publish/image_publisher.h"
 #include "stereod/image_t.hpp"
 
 namespace stereod {
 
-/// Publishes both images of a pair on PREFIX_LEFT_RAW and PREFIX_RIGHT_RAW, so many pairs a second at most,
-/// from a thread of its own: who offers pairs only ever copies, and only when one is due. A image is longer
-/// than a datagram, so on a network that loses one fragment in a hundred a 640×480 image (200 fragments of
-/// a wire's 1500 bytes) arrives one time in eight; on the machine itself, or with a large socket buffer, it
-/// arrives. Calibration does not need every pair.
+/// The luma of a camera image and its start of exposure.
+struct RawImage {
+  const LumaView& luma;
+  std::int64_t utime;  ///< [µs since the Unix epoch]
+};
+
+/// Publishes both images of a pair at a limited rate. The matching thread only copies, and only if a pair is
+/// due.
+///
+/// An image is larger than a datagram: on a network that loses 1 % of the fragments, a 640×480 image (200
+/// Ethernet packets) arrives one time in eight. On the same machine, or with a large socket buffer, every
+/// image arrives.
 class RawPublisher {
  public:
+  /// @p size is the size of the camera images [px].
   RawPublisher(MessageBus& bus, const std::string& prefix, double pairs_per_second, Size size);
-  ~RawPublisher();
-  RawPublisher(const RawPublisher&) = delete;
-  RawPublisher& operator=(const RawPublisher&) = delete;
 
-  /// Takes a copy of the pair if one is due and the last one is sent. `utime`: as in the messages of its
-  /// frame, by which a log knows what belongs together. Allocates nothing, waits for nothing.
-  void offer(const LeasedPair& pair, std::int64_t utime) noexcept;
-  void stop() noexcept;
+  /// Copies the pair if one is due and the previous one is sent. The left utime equals that in the messages
+  /// of its frame, so that a log shows what belongs together. Allocates nothing and does not wait.
+  void offer(const RawImage& left, const RawImage& right) noexcept;
+  void stop() noexcept { publisher_.stop(); }
 
-  std::int64_t refused() const noexcept { return refused_; }
+  /// Returns how many messages the network refused since construction.
+  std::int64_t refused() const noexcept { return publisher_.refused(); }
 
  private:
-  void run() noexcept;
-  static void copy(const LumaView& luma, image_t& image) noexcept;
-
   MessageBus& bus_;
   const std::string left_channel_, right_channel_;
-  const std::int64_t period_ns_;
-  std::int64_t next_ns_ = 0;  // of offer()'s thread
-
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool full_ = false;
-  bool stopping_ = false;
-  image_t left_{}, right_{};
+  image_t left_, right_;
   MessageEncoder encoder_;
-  std::atomic<std::int64_t> refused_{0};
-  std::thread thread_;
+  ImagePublisher publisher_;
 };
 
 }  // namespace stereod

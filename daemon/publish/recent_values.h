@@ -1,4 +1,5 @@
-// Figures of the last second, for the status message.
+// SPDX-License-Identifier: BSD-3-Clause
+// Percentiles of the values of the last second, for the status message.
 #pragma once
 
 #include <algorithm>
@@ -8,24 +9,25 @@
 
 namespace stereod {
 
-/// The values since the last clear(), at most kCapacity of them (the newest). Allocates nothing.
+/// Holds the newest kCapacity values since the last clear(). Allocates nothing.
 class RecentValues {
  public:
   static constexpr std::size_t kCapacity = 512;
 
   void add(double value) noexcept { values_[count_++ % kCapacity] = value; }
   void clear() noexcept { count_ = 0; }
+  /// Returns the number of values added since the last clear(), dropped ones included.
   std::size_t count() const noexcept { return count_; }
 
-  /// The value that `share` (0…1) of them do not exceed; 0 if there is none.
+  /// Returns the value that a share (0…1) of the values does not exceed; 0 without values.
   double percentile(double share) const noexcept {
     const std::size_t held = std::min(count_, kCapacity);
     if (held == 0) return 0;
     std::array<double, kCapacity> sorted = values_;
-    const std::ptrdiff_t place = std::lround(share * static_cast<double>(held - 1));
-    std::nth_element(sorted.begin(), sorted.begin() + place,
+    const std::ptrdiff_t index = std::lround(share * static_cast<double>(held - 1));
+    std::nth_element(sorted.begin(), sorted.begin() + index,
                      sorted.begin() + static_cast<std::ptrdiff_t>(held));
-    return sorted[static_cast<std::size_t>(place)];
+    return sorted[static_cast<std::size_t>(index)];
   }
 
  private:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/publish/rows_encoder.h"
 
 #include <algorithm>
@@ -6,19 +7,19 @@
 namespace stereod {
 namespace {
 
-int bit_bytes(int width) { return (width + 7) / 8; }
+int bytes_of_bits(int width) { return (width + 7) / 8; }
 
-/// What is sent of a pixel; kInvalidDisparity becomes 255 or 65535.
+/// Returns the value to send, its lowest byte or two; kInvalidDisparity becomes 255 or 65535.
 std::int16_t wire_value(std::int16_t value) { return is_filled(value) ? filled_disparity(value) : value; }
 
-/// Pixels of a row, every `step`-th.
-struct Every {
+/// Every `decimation`-th pixel of a row.
+struct DecimatedRow {
   const std::int16_t* row;
-  int step;
-  std::int16_t operator[](std::ptrdiff_t u) const { return row[u * step]; }
+  int decimation;
+  std::int16_t operator[](std::ptrdiff_t u) const { return row[u * decimation]; }
 };
 
-// `Row` is a pointer, so that vector instructions do it, or an Every.
+// Row is a pointer, for which the compiler emits vector instructions, or a DecimatedRow.
 template <typename Row>
 void encode_row(Row in, int width, int bytes_per_value, std::uint8_t* out, PixelCounts& counts) {
   int measured = 0, filled = 0;
@@ -39,8 +40,8 @@ void encode_row(Row in, int width, int bytes_per_value, std::uint8_t* out, Pixel
   }
 }
 
-void encode_bits(Every in, int width, std::uint8_t* out) {
-  std::fill_n(out, bit_bytes(width), std::uint8_t{0});
+void encode_bits(DecimatedRow in, int width, std::uint8_t* out) {
+  std::fill_n(out, bytes_of_bits(width), std::uint8_t{0});
   for (int u = 0; u < width; ++u) {
     if (is_filled(in[u])) out[u / 8] = static_cast<std::uint8_t>(out[u / 8] | 1U << (u % 8));
   }
@@ -50,7 +51,7 @@ void encode_bits(Every in, int width, std::uint8_t* out) {
 
 void reserve_rows(disparity_rows_t& message, int width, int rows, int bytes_per_value) {
   message.data.reserve(static_cast<std::size_t>(rows * width * bytes_per_value));
-  message.filled.reserve(static_cast<std::size_t>(rows * bit_bytes(width)));
+  message.filled.reserve(static_cast<std::size_t>(rows * bytes_of_bits(width)));
 }
 
 PixelCounts encode_rows(DisparityView disparity, RowRange rows, disparity_rows_t& message) noexcept {
@@ -68,15 +69,15 @@ PixelCounts encode_rows(DisparityView disparity, RowRange rows, disparity_rows_t
     if (message.decimation_x == 1) {
       encode_row(row(v), width, message.bytes_per_value, out, counts);
     } else {
-      encode_row(Every{row(v), message.decimation_x}, width, message.bytes_per_value, out, counts);
+      encode_row(DecimatedRow{row(v), message.decimation_x}, width, message.bytes_per_value, out, counts);
     }
     out += std::ptrdiff_t{width} * message.bytes_per_value;
   }
-  message.filled_size = counts.filled > 0 ? rows.count() * bit_bytes(width) : 0;
+  message.filled_size = counts.filled > 0 ? rows.count() * bytes_of_bits(width) : 0;
   message.filled.resize(static_cast<std::size_t>(message.filled_size));
   if (counts.filled == 0) return counts;
   std::uint8_t* bits = message.filled.data();
-  for (int v = rows.first; v < rows.end; ++v, bits += bit_bytes(width)) {
+  for (int v = rows.first; v < rows.end; ++v, bits += bytes_of_bits(width)) {
     encode_bits({row(v), message.decimation_x}, width, bits);
   }
   return counts;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/publish/scan_publisher.h"
 
 #include <algorithm>
@@ -7,6 +8,16 @@
 #include "daemon/lcm/limits.h"
 
 namespace stereod {
+namespace {
+
+/// @p result is null while the ground is not known.
+StopReason stop_reason(const ScanResult* result) {
+  if (result == nullptr) return StopReason::kGroundUnknown;
+  if (!result->stop) return StopReason::kNone;
+  return result->nearest_m > 0 ? StopReason::kObstacle : StopReason::kWayUnknown;
+}
+
+}  // namespace
 
 ScanPublisher::ScanPublisher(MessageBus& bus, const std::string& prefix, const ScanConfig& config,
                              const ScanGeometry& camera)
@@ -21,38 +32,42 @@ ScanPublisher::ScanPublisher(MessageBus& bus, const std::string& prefix, const S
   message_.intensities.resize(static_cast<std::size_t>(config.options.rays));
 }
 
-void ScanPublisher::add_row(int y, const std::int16_t* disparity) noexcept {
+void ScanPublisher::take_rows(const FinalRows& rows) noexcept {
   const std::int64_t begin = monotonic_ns();
-  scan_.add_row(y, disparity);
-  if (fit_is_due()) fit_->add_row(y, disparity);
+  const bool fit = fit_is_due();
+  for (int y = rows.rectified.first; y < rows.rectified.end; ++y) {
+    scan_.add_row(y, rows.disparity.row(y));
+    if (fit) fit_->add_row(y, rows.disparity.row(y));
+  }
   spent_ns_ += monotonic_ns() - begin;
 }
 
-bool ScanPublisher::finish(frame_t& frame) noexcept {
+std::optional<ScanSummary> ScanPublisher::end_rows(const FrameTiming& timing) noexcept {
   const std::int64_t begin = monotonic_ns();
+  // A plane fitted to this frame counts from the next frame on.
   const bool ground_was_known = ground_known_;
   const ScanResult& result = scan_.finish();
   if (fit_is_due()) follow(fit_->finish());
   ++frames_;
-  bool sent = true;
-  frame.nearest_m = ground_was_known ? result.nearest_m : 0;
-  const StopReason reason = !ground_was_known      ? StopReason::kGroundUnknown
-                            : !result.stop         ? StopReason::kNone
-                            : result.nearest_m > 0 ? StopReason::kObstacle
-                                                   : StopReason::kWayUnknown;
-  frame.stop = static_cast<std::int8_t>(reason != StopReason::kNone ? 1 : 0);
-  frame.stop_reason = static_cast<std::int8_t>(reason);
+  ScanSummary summary;
+  summary.stop_reason = stop_reason(ground_was_known ? &result : nullptr);
+  summary.stop = summary.stop_reason != StopReason::kNone;
   if (ground_was_known) {
-    message_.utime = frame.utime;
-    std::copy(result.range_m.begin(), result.range_m.end(), message_.ranges.begin());
-    std::copy(result.support.begin(), result.support.end(), message_.intensities.begin());
-    message_.rad0 = result.first_rad;
-    message_.radstep = result.step_rad;
-    sent = encoder_.publish(bus_, channel_.c_str(), message_);
+    summary.nearest_m = result.nearest_m;
+    publish(result, timing.utime);
   }
-  frame.scan_us = static_cast<std::int32_t>((spent_ns_ + monotonic_ns() - begin) / 1000);
+  summary.scan_us = static_cast<std::int32_t>((spent_ns_ + monotonic_ns() - begin) / 1000);
   spent_ns_ = 0;
-  return sent;
+  return summary;
+}
+
+void ScanPublisher::publish(const ScanResult& result, std::int64_t utime) noexcept {
+  message_.utime = utime;
+  std::copy(result.range_m.begin(), result.range_m.end(), message_.ranges.begin());
+  std::copy(result.support.begin(), result.support.end(), message_.intensities.begin());
+  message_.rad0 = result.first_rad;
+  message_.radstep = result.step_rad;
+  if (!encoder_.publish(bus_, channel_.c_str(), message_)) ++refused_;
 }
 
 void ScanPublisher::follow(const std::optional<GroundPlane>& fitted) noexcept {
@@ -60,8 +75,8 @@ void ScanPublisher::follow(const std::optional<GroundPlane>& fitted) noexcept {
   GroundPlane ground = *fitted;
   if (ground_known_) {
     const GroundPlane& old = scan_.ground();
-    ground.height_m = old.height_m + kFollows * (ground.height_m - old.height_m);
-    ground.pitch_rad = old.pitch_rad + kFollows * (ground.pitch_rad - old.pitch_rad);
+    ground.height_m = old.height_m + kFitWeight * (ground.height_m - old.height_m);
+    ground.pitch_rad = old.pitch_rad + kFitWeight * (ground.pitch_rad - old.pitch_rad);
   }
   ground_known_ = true;
   scan_.set_ground(ground);

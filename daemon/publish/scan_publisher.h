@@ -1,4 +1,5 @@
-// The obstacle scan of each frame, on its way to the network.
+// SPDX-License-Identifier: BSD-3-Clause
+// The output PREFIX_SCAN: the obstacle scan of each frame.
 #pragma once
 
 #include <cstdint>
@@ -11,32 +12,32 @@
 #include "daemon/config/config.h"
 #include "daemon/lcm/message_bus.h"
 #include "daemon/lcm/message_encoder.h"
-#include "stereod/frame_t.hpp"
+#include "daemon/publish/row_consumer.h"
 #include "stereod/planar_lidar_t.hpp"
 
 namespace stereod {
 
-/// frame_t's stop_reason.
-enum class StopReason : std::int8_t { kNone = 0, kObstacle = 1, kWayUnknown = 2, kGroundUnknown = 3 };
-
-/// Is shown the rows as they are sent, so that it costs no latency, and publishes PREFIX_SCAN when the frame
-/// is complete. One thread's, the publisher's; allocates nothing after its construction.
-class ScanPublisher {
+/// Scans the rows while they are sent, so that the scan adds no latency to them, and publishes planar_lidar_t
+/// at the end of each frame. Estimates the ground plane if the configuration says so: until it is known,
+/// nothing is published and the summary says stop. Used by the publisher thread only; allocates nothing after
+/// construction.
+class ScanPublisher final : public RowConsumer {
  public:
   ScanPublisher(MessageBus& bus, const std::string& prefix, const ScanConfig& config,
                 const ScanGeometry& camera);
 
-  void add_row(int y, const std::int16_t* disparity) noexcept;
-  /// Every row was shown: publishes, and fills in what the frame's message says of the scan. False if the
-  /// network refused the message.
-  bool finish(frame_t& frame) noexcept;
+  void take_rows(const FinalRows& rows) noexcept override;
+  /// Publishes the scan. Returns its summary, always.
+  std::optional<ScanSummary> end_rows(const FrameTiming& timing) noexcept override;
+  std::int64_t refused() const noexcept override { return refused_; }
 
  private:
-  static constexpr int kFitEvery = 30;     // frames, once the ground is known
-  static constexpr double kFollows = 0.2;  // how much of a new fit is believed
+  static constexpr int kFramesPerFit = 30;   // once the ground is known
+  static constexpr double kFitWeight = 0.2;  // of a new fit against the ground so far
 
+  void publish(const ScanResult& result, std::int64_t utime) noexcept;
   void follow(const std::optional<GroundPlane>& fitted) noexcept;
-  bool fit_is_due() const { return fit_ && (!ground_known_ || frames_ % kFitEvery == 0); }
+  bool fit_is_due() const { return fit_ && (!ground_known_ || frames_ % kFramesPerFit == 0); }
 
   MessageBus& bus_;
   const std::string channel_;
@@ -44,12 +45,13 @@ class ScanPublisher {
   std::optional<GroundFit> fit_;
   bool ground_known_;
   std::int64_t frames_ = 0;
-  std::int64_t spent_ns_ = 0;
+  std::int64_t spent_ns_ = 0;  // on the present frame
+  std::int64_t refused_ = 0;
   planar_lidar_t message_{};
   MessageEncoder encoder_;
 };
 
-/// What a scan needs to know of a daemon's camera.
+/// Returns what a scan needs to know of the rectified cameras.
 ScanGeometry scan_geometry(const Calibration& calibration, const MatcherOptions& matcher);
 
 }  // namespace stereod

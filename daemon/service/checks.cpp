@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/service/checks.h"
 
 #include <algorithm>
@@ -10,6 +11,16 @@
 #include "daemon/pipeline/pipeline.h"
 
 namespace stereod {
+namespace {
+
+/// Returns the key to change when check_pipeline() refuses frames of this size.
+const char* key_of_size_problem(const Config& config, Size size) {
+  if (std::max(size.width, size.height) > kMaxImageSide) return "cameras";
+  if (region_problem(config.publish, size)) return "publish.region";
+  return "lcm.rows_per_message";
+}
+
+}  // namespace
 
 void check_config(const Config& config, const std::filesystem::path& file) {
   if (const auto problem = problem_for_daemon(config)) {
@@ -31,12 +42,7 @@ void check_frame_size(const Config& config, const std::filesystem::path& file, S
   try {
     check_pipeline(config, size);
   } catch (const std::invalid_argument& error) {
-    const bool too_large = std::max(size.width, size.height) > kMaxImageSide;
-    const bool outside = region_problem(config.publish, size).has_value();
-    throw FileError(place_of(file, too_large ? "cameras"
-                                   : outside ? "publish.region"
-                                             : "lcm.rows_per_message") +
-                    ": " + error.what());
+    throw FileError(place_of(file, key_of_size_problem(config, size)) + ": " + error.what());
   }
 }
 
@@ -48,23 +54,23 @@ void check_calibration(const Config& config, const std::filesystem::path& file,
     }
     return;
   }
-  const auto refuse = [&file](bool wanted, const char* key) {
-    if (!wanted) return;
-    throw FileError(
-        place_of(file, key) +
-        ": found true, but without a calibration no distance is known; give one, or allowed is false");
+  const auto refuse = [&file](bool enabled, const char* key) {
+    if (!enabled) return;
+    throw FileError(place_of(file, key) +
+                    ": found true, allowed without a calibration is false: distances are not known; set "
+                    "'calibration'");
   };
   refuse(config.scan.enabled, "scan.enabled");
   refuse(config.publish.depth, "publish.depth");
   refuse(config.publish.cloud, "publish.cloud");
 }
 
-StereoSource open_checked_rig(const Config& config, const std::filesystem::path& file) {
+StereoSource open_checked_source(const Config& config, const std::filesystem::path& file) {
   check_config(config, file);
-  StereoSource rig = open_stereo_source(config);
-  check_calibration(config, file, rig.calibration);
-  check_frame_size(config, file, rig.left->frame_size());
-  return rig;
+  StereoSource source = open_stereo_source(config);
+  check_calibration(config, file, source.calibration);
+  check_frame_size(config, file, source.left->frame_size());
+  return source;
 }
 
 }  // namespace stereod

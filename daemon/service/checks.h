@@ -1,4 +1,5 @@
-// Whether a configuration can work, found out before anything is started with it.
+// SPDX-License-Identifier: BSD-3-Clause
+// Checks that a configuration can work, before anything is started.
 #pragma once
 
 #include <filesystem>
@@ -9,19 +10,21 @@
 
 namespace stereod {
 
-/// What needs no cameras: that the LCM URL is one, that the CPU has what matcher.isa asks for. `file` is
-/// where the configuration stands, for the complaint. Throws FileError.
+// @p file is the file that the configuration was read from. The functions throw FileError: "file:line: key:
+// what was found, what is allowed".
+
+/// Checks what needs no cameras: the LCM URL, and that this CPU has the instruction set of matcher.isa.
 void check_config(const Config& config, const std::filesystem::path& file);
 
-/// That frames of this size can be matched and published. Throws FileError.
+/// Checks that frames of this size [px] can be matched and published.
 void check_frame_size(const Config& config, const std::filesystem::path& file, Size size);
 
-/// That nothing is asked for that needs a calibration and has none. Throws FileError.
+/// Checks that the calibration leaves an image, and that without one no output is enabled that needs it.
 void check_calibration(const Config& config, const std::filesystem::path& file,
                        const std::optional<Calibration>& calibration);
 
-/// Finds everything that can never work before anything touches the network, which may only be late: these
-/// checks and open_stereo_source(). Throws FileError.
-StereoSource open_checked_rig(const Config& config, const std::filesystem::path& file);
+/// Opens the sources and runs all checks, so that everything that can never work is found before the network
+/// is used, which may only be late.
+StereoSource open_checked_source(const Config& config, const std::filesystem::path& file);
 
 }  // namespace stereod

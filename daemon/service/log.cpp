@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/service/log.h"
 
 #include <poll.h>
@@ -17,7 +18,7 @@
 namespace stereod {
 namespace {
 
-// The number that syslog and systemd give a level.
+// Writes the priority that syslog and systemd use for a level.
 class SystemdPriority final : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
@@ -45,18 +46,17 @@ class SystemdPriority final : public spdlog::custom_flag_formatter {
   }
 };
 
-// Writes to stderr, but never waits for whoever reads it: a line that would have to wait is dropped, and the
-// number of such lines told with the next one that goes through.
+// Writes to stderr but never waits for its reader: drops a line that would block, and reports the number of
+// dropped lines before the next line that passes.
 class UnblockedStderr final : public spdlog::sinks::base_sink<std::mutex> {
  private:
-  // A pipe that is ready takes at least this much at once (POSIX, PIPE_BUF on Linux).
+  // A pipe that is ready accepts at least this much at once (PIPE_BUF on Linux).
   static constexpr std::size_t kMaxLine = 4096;
 
   void sink_it_(const spdlog::details::log_msg& message) override {
     spdlog::memory_buf_t line;
     formatter_->format(message, line);
-    if (dropped_ > 0 &&
-        write_line(std::to_string(dropped_) + " lines of the log were lost: nobody read them\n")) {
+    if (dropped_ > 0 && write_line(std::to_string(dropped_) + " log lines dropped (stderr blocked)\n")) {
       dropped_ = 0;
     }
     if (!write_line({line.data(), line.size()})) ++dropped_;
@@ -72,8 +72,8 @@ class UnblockedStderr final : public spdlog::sinks::base_sink<std::mutex> {
   long dropped_ = 0;
 };
 
-// systemd names the device and inode of the journal's socket, so that whoever writes into a file or a pipe of
-// a user's knows that this is not it.
+// systemd passes the device and inode of the journal's socket, so that a program can tell whether stderr was
+// redirected.
 bool read_by_journal() {
   const char* stream = std::getenv("JOURNAL_STREAM");
   struct stat status {};

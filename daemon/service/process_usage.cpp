@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/service/process_usage.h"
 
 #include <sys/resource.h>

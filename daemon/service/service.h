@@ -1,4 +1,5 @@
-// The daemon: a pipeline, what it says about itself, and what becomes of it when the configuration changes.
+// SPDX-License-Identifier: BSD-3-Clause
+// The daemon: a pipeline, its status, and reloads of the configuration.
 #pragma once
 
 #include <cstdint>
@@ -14,37 +15,39 @@
 
 namespace stereod {
 
-/// Whoever runs it calls tick() every so often, twenty times a second say, and reload() when asked to. To
-/// systemd it is ready once a pair was published or it has declared that it waits for cameras. It is alive,
-/// once a second, if more was published since it last said so, or if there is nothing to do until the cameras
-/// bring a pair: a clock alone never makes it so.
+/// Runs the pipeline of one configuration file. One thread calls its functions.
+///
+/// Call tick() periodically (about 20 Hz). The service is ready for systemd once a frame was published or it
+/// reported that it waits for cameras. It pings the watchdog once a second, but only if frames were published
+/// since the last ping or the matcher is idle waiting for a pair; a timer alone never feeds it.
 class Service {
  public:
-  /// Opens the bus that a URL names; throws BusError.
+  /// Opens the message bus of a URL; throws BusError.
   using OpenBus = std::function<std::unique_ptr<MessageBus>(const std::string& url)>;
 
-  /// Starts at once. `file` is what `config` was read from and what reload() reads. Throws FileError and
-  /// BusError.
+  /// Starts capturing and publishing. @p file is the file that @p config was read from; reload() reads it
+  /// again.
+  /// @throws FileError if the configuration cannot work, BusError if the network cannot be used.
   Service(Config config, std::filesystem::path file, OpenBus open_bus);
 
-  /// Does what is due.
+  /// Publishes the status and notifies systemd when due.
   void tick();
 
-  /// Reads the file again and goes on with what it says. Cameras are set up anew only if their section has
-  /// changed in more than controls and exposure. If the file cannot work, all stays as it is and the reason
-  /// is told in the log, in every status and to systemd, until a reload succeeds.
+  /// Reads the file again and applies it. Cameras are restarted only if their section changed in more than
+  /// controls and exposure. If the new configuration cannot work, keeps the previous one and reports the
+  /// reason in the log, in every status and to systemd, until a reload succeeds.
   void reload();
 
-  /// The recording has played to its end.
+  /// Returns true once a recording has played to its end.
   bool finished() const noexcept { return pipeline_->finished(); }
 
-  /// Ends the cameras and all that follows.
+  /// Stops the cameras and the pipeline.
   void stop();
 
  private:
   void adopt(const Config& config);
   void report();
-  void remark();
+  void update_remark();
 
   const std::filesystem::path file_;
   const OpenBus open_bus_;
@@ -53,9 +56,9 @@ class Service {
   std::unique_ptr<MessageBus> bus_;
   std::unique_ptr<Pipeline> pipeline_;
   std::unique_ptr<StatusReporter> reporter_;
-  std::string reload_problem_, scheduling_problem_;  // what is wrong; empty if nothing
+  std::string reload_problem_, scheduling_problem_;  // empty: none
   std::int64_t next_report_ns_ = 0;
-  std::int64_t published_when_alive_ = 0;
+  std::int64_t published_at_ping_ = 0;  // frames_published at the latest watchdog ping
 };
 
 }  // namespace stereod

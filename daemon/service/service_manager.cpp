@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/service/service_manager.h"
 
 #include <systemd/sd-daemon.h>
@@ -26,12 +27,13 @@ void ServiceManager::reloaded() {
 
 void ServiceManager::stopping() { sd_notify(0, "STOPPING=1"); }
 
-void ServiceManager::status(const std::string& sentence) {
-  if (sentence == said_) return;
-  said_ = sentence;
-  std::string line = "STATUS=" + sentence;
-  std::replace(line.begin(), line.end(), '\n', ' ');  // a new line would begin another assignment
-  sd_notify(0, line.c_str());
+void ServiceManager::status(const std::string& line) {
+  if (line == status_) return;
+  status_ = line;
+  std::string assignment = "STATUS=" + line;
+  // A newline would begin another assignment.
+  std::replace(assignment.begin(), assignment.end(), '\n', ' ');
+  sd_notify(0, assignment.c_str());
 }
 
 void ServiceManager::alive() {

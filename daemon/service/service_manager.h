@@ -1,29 +1,30 @@
-// What systemd wants to hear from a service of Type=notify.
+// SPDX-License-Identifier: BSD-3-Clause
+// Notifications to systemd for a service of Type=notify.
 #pragma once
 
 #include <string>
 
 namespace stereod {
 
-/// The protocol of sd_notify(3). Where systemd has not asked for it (no NOTIFY_SOCKET in the environment)
-/// nothing happens at all. One thread uses it.
+/// Implements the protocol of sd_notify(3). Does nothing unless systemd asks for it (NOTIFY_SOCKET in the
+/// environment). One thread uses it.
 class ServiceManager {
  public:
-  /// The service does what it is there for; said once.
+  /// Reports that the service is ready; only the first call does.
   void ready();
-  /// The configuration is read again, and was. Nothing before it was ready.
+  /// Report the begin and the end of a reload. Do nothing before ready().
   void reloading();
   void reloaded();
-  /// It ends.
+  /// Reports that the service stops.
   void stopping();
-  /// What it does, in words; said only when it changes. To be called once a second at most.
-  void status(const std::string& sentence);
-  /// It lives: systemd's watchdog begins to count anew. Nothing if there is no watchdog.
+  /// Sets the status line of systemctl. Sends only changes. Call it at most once a second.
+  void status(const std::string& line);
+  /// Restarts the timeout of systemd's watchdog. Does nothing without a watchdog.
   void alive();
 
  private:
   bool ready_ = false;
-  std::string said_;
+  std::string status_;  // as last sent
 };
 
 }  // namespace stereod

@@ -1,4 +1,5 @@
-// Says once a second how the daemon is.
+// SPDX-License-Identifier: BSD-3-Clause
+// Publishes the status of the daemon once a second.
 #pragma once
 
 #include <cstdint>
@@ -6,78 +7,61 @@
 
 #include "daemon/lcm/message_bus.h"
 #include "daemon/lcm/message_encoder.h"
+#include "daemon/pipeline/calibration_monitor.h"
 #include "daemon/pipeline/pipeline.h"
+#include "daemon/service/service_state.h"
 #include "stereod/camera_info_t.hpp"
 #include "stereod/status_t.hpp"
 
 namespace stereod {
 
-/// What the daemon is doing, and why, in words.
-struct ServiceState {
-  std::string name;    ///< starting, waiting_for_cameras, uncalibrated, streaming or degraded
-  std::string reason;  ///< empty when streaming
-};
-
-/// What has happened lately.
-struct Activity {
-  bool left_frames = false, right_frames = false;
-  bool pairs = false;
-  bool published = false;
-  bool refused = false;      ///< by the network
-  std::string knocked = {};  ///< why the calibration does not fit the cameras any more; empty if it does
-};
-
-/// Says when a calibration no longer fits: rows more than a pixel apart, until they are within 0.7 px again;
-/// or hardly any point of the left image found in the right one, after it has been otherwise, until some
-/// are again.
-class CalibrationMonitor {
- public:
-  /// The stats of one moment; what is wrong, as a sentence without stats, or empty.
-  std::string judge(const EpipolarStats& stats);
-
- private:
-  bool apart_ = false;
-  bool was_found_ = false;
-  bool lost_ = false;
-};
-
-ServiceState judge_state(const Activity& activity, bool calibrated);
-
-/// Publishes status_t and camera_info_t, and logs every change of state once.
+/// Publishes status_t and camera_info_t, and logs every change of state once. One thread.
 class StatusReporter {
  public:
   StatusReporter(Pipeline& pipeline, MessageBus& bus);
 
-  /// From now on about this pipeline, which goes on counting where the one before it ended, and on this bus.
+  /// Reports about @p pipeline on @p bus from now on. Both must outlive the reporter or the next call. The
+  /// counters of @p pipeline must continue those of the previous one (Pipeline::take_over()).
   void follow(Pipeline& pipeline, MessageBus& bus);
 
-  /// A sentence that is added to every reason until it is replaced; empty: nothing.
+  /// Sets text that is appended to the reason of every status; empty: none.
   void set_remark(const std::string& remark) { remark_ = remark; }
 
-  /// To be called about once a second; the first call says "starting". What it said.
-  const status_t& report();
+  /// Publishes the status and the camera info. Call it about once a second; the first call reports kStarting.
+  void report();
+
+  /// Returns the state and the message of the latest report().
+  ServiceState state() const { return condition_.state; }
+  const status_t& message() const { return status_; }
 
  private:
-  void publish_camera_info();
-  Activity recent_activity(const PipelineStats& now, std::int64_t now_ns);
-  void fill_camera(camera_status_t& message, const CameraStats& now, const CameraStats& before,
-                   double seconds);
+  /// Times of the latest events [CLOCK_MONOTONIC ns]; 0: never.
+  struct LastEvents {
+    std::int64_t left_frame = 0, right_frame = 0, pair = 0, publication = 0;
+  };
 
-  Pipeline* pipeline_ = nullptr;  // never null once constructed
-  MessageBus* bus_ = nullptr;     // likewise
+  Activity recent_activity(const PipelineStats& now, std::int64_t now_ns);
+  void enter(const ServiceCondition& condition, const EpipolarStats& epipolar);
+  std::string reason_for(const Activity& activity, const PipelineStats& now) const;
+  void fill_counts(const PipelineStats& now, double seconds);
+  void fill_timing(const PublisherStats& published);
+  void fill_measurements(const PipelineStats& now);
+  void fill_process(double seconds);
+  void fill_sync();
+  void publish_camera_info();
+
+  Pipeline* pipeline_ = nullptr;  // never null after construction
+  MessageBus* bus_ = nullptr;     // never null after construction
   MessageEncoder encoder_;
   status_t status_{};
   std::string status_channel_, camera_info_channel_;
-  PipelineStats before_;
-  // When each last happened.
-  struct {
-    std::int64_t left = 0, right = 0, pair = 0, publication = 0;
-  } last_ns_;
-  std::int64_t patience_ns_ = 0;  // how long nothing may happen before it counts as missing
+  PipelineStats before_;  // at the previous report
+  LastEvents last_;
+  std::int64_t timeout_ns_ = 0;  // without an event for so long, it counts as missing
   CalibrationMonitor calibration_monitor_;
   bool first_ = true;
   std::string remark_;
-  ServiceState logged_;
+  ServiceCondition condition_;
   std::int64_t started_ns_, before_ns_;
   double before_cpu_s_;
 };

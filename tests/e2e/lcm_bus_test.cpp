@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/lcm/bus.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@
 namespace stereod {
 namespace {
 
-// Not LCM's own port, so that a test outside a namespace meets nobody.
+// Not LCM's default port, so that tests outside a namespace do not meet other programs.
 constexpr const char* kUrl = "udpm://239.255.76.67:17667?ttl=0";
 
 #define SKIP_WITHOUT_MULTICAST() \
@@ -40,25 +41,25 @@ BusError error_of(const std::string& url) {
 
 struct BadUrl {
   const char* url;
-  const char* complaint;
+  const char* message;
   friend std::ostream& operator<<(std::ostream& out, const BadUrl& bad) { return out << bad.url; }
 };
 
 class BadUrls : public testing::TestWithParam<BadUrl> {};
 
-TEST_P(BadUrls, AreRefusedForGoodWithASentence) {
+TEST_P(BadUrls, Open_PermanentError) {
   const BusError error = error_of(GetParam().url);
   EXPECT_TRUE(error.permanent());
-  const std::string sentence = error.what();
-  EXPECT_NE(sentence.find(GetParam().complaint), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find(GetParam().url), std::string::npos) << sentence;
-  EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
+  const std::string text = error.what();
+  EXPECT_NE(text.find(GetParam().message), std::string::npos) << text;
+  EXPECT_NE(text.find(GetParam().url), std::string::npos) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
 }
 
 INSTANTIATE_TEST_SUITE_P(
     LcmBus, BadUrls,
-    testing::Values(BadUrl{"garbage", "this is not PROVIDER://NETWORK"},
-                    BadUrl{"foo://x", "unknown provider 'foo', allowed are udpm, file and memq"},
+    testing::Values(BadUrl{"garbage", "not of the form PROVIDER://NETWORK"},
+                    BadUrl{"foo://x", "unknown provider 'foo', allowed udpm, file, memq"},
                     BadUrl{"tcpq://127.0.0.1:7700", "unknown provider 'tcpq'"},
                     BadUrl{"udpm://", "'' is not a multicast address"},
                     BadUrl{"udpm://hello:7667", "'hello' is not a multicast address"},
@@ -73,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadUrl{"file://", "path of the log file is missing"},
                     BadUrl{"file:///tmp/some.log", "needs ?mode=w"}));
 
-TEST(LcmBus, SaysThatALogCannotBeWrittenWhereThereIsNoDirectory) {
+TEST(LcmBus, LogWithoutDirectory_Error) {
   const BusError error = error_of("file:///no/such/directory/log?mode=w");
   EXPECT_FALSE(error.permanent());
   EXPECT_NE(std::string(error.what()).find("/no/such/directory: No such file or directory"),
@@ -81,8 +82,8 @@ TEST(LcmBus, SaysThatALogCannotBeWrittenWhereThereIsNoDirectory) {
       << error.what();
 }
 
-/// What happens to a bus in a network namespace of its own, without any route: 0 the right error, 1 another,
-/// 2 no namespace to be had. In a child process, because a process cannot leave its namespace again.
+/// Opens a bus in a network namespace without routes. Returns 0 for the expected error, 1 for another result,
+/// 2 if no namespace can be created. Uses a child process, because a process cannot leave its namespace.
 int outcome_without_route() {
   const pid_t child = fork();
   if (child == 0) {
@@ -97,13 +98,13 @@ int outcome_without_route() {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
-TEST(LcmBus, NamesTheRemedyWithoutAMulticastRoute) {
+TEST(LcmBus, NoMulticastRoute_Remedy) {
   const int outcome = outcome_without_route();
-  if (outcome == 2) GTEST_SKIP() << "this machine lets no user make a network namespace";
+  if (outcome == 2) GTEST_SKIP() << "this machine does not allow users to create network namespaces";
   EXPECT_EQ(outcome, 0);
 }
 
-TEST(LcmBus, DeliversWhatIsPublished) {
+TEST(LcmBus, Published_Delivered) {
   SKIP_WITHOUT_MULTICAST();
   LcmReceiver receiver(kUrl);
   std::vector<std::string> got;
@@ -111,7 +112,7 @@ TEST(LcmBus, DeliversWhatIsPublished) {
     got.emplace_back(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   });
   LcmBus bus(kUrl);
-  EXPECT_TRUE(bus.publish("TESTXONE", "other", 5));  // the point in the name is a point
+  EXPECT_TRUE(bus.publish("TESTXONE", "other", 5));  // "." in the name is not a wildcard
   EXPECT_TRUE(bus.publish("TEST.ONE", "hello", 5));
   const std::string large(200'000, 'x');
   EXPECT_TRUE(bus.publish("TEST.ONE", large.data(), large.size()));
@@ -123,12 +124,12 @@ TEST(LcmBus, DeliversWhatIsPublished) {
   EXPECT_FALSE(receiver.receive(std::chrono::milliseconds(20)));
 }
 
-TEST(LcmBus, AllocatesNothingToPublish) {
+TEST(LcmBus, Publish_NoAllocation) {
   SKIP_WITHOUT_MULTICAST();
   if (!AllocationCounter::supported()) GTEST_SKIP() << "this build does not count allocations";
   LcmBus bus(kUrl);
   const std::vector<char> data(300'000);
-  bool sent = bus.publish("TEST", data.data(), 1);  // GLib makes a mutex for the first
+  bool sent = bus.publish("TEST", data.data(), 1);  // GLib creates a mutex for the first message
   const AllocationCounter counter;
   for (const std::size_t size : {1, 100, 1500, 60'000, 65'000, 70'000, 300'000}) {
     sent = bus.publish("TEST", data.data(), size) && sent;
@@ -138,8 +139,8 @@ TEST(LcmBus, AllocatesNothingToPublish) {
   EXPECT_EQ(allocations, 0U);
 }
 
-// Disparities, left images and the status come from threads of their own.
-TEST(LcmBus, ThreadsDoNotMixTheirMessagesInALog) {
+// Disparities, left images and the status are published by different threads.
+TEST(LcmBus, ThreadsOnOneLog_WholeMessages) {
   constexpr int kThreads = 4, kMessages = 2000;
   const TemporaryDirectory directory;
   const std::string file = (directory / "log").string();
@@ -165,14 +166,14 @@ TEST(LcmBus, ThreadsDoNotMixTheirMessagesInALog) {
   EXPECT_EQ(whole, kThreads * kMessages);
 }
 
-TEST(LcmBus, RefusesAChannelThatIsTooLong) {
+TEST(LcmBus, ChannelTooLong_Refused) {
   SKIP_WITHOUT_MULTICAST();
   LcmBus bus(kUrl);
   EXPECT_TRUE(bus.publish(std::string(63, 'C').c_str(), "x", 1));
   EXPECT_FALSE(bus.publish(std::string(64, 'C').c_str(), "x", 1));
 }
 
-TEST(LcmReceiver, PassesOnWhatAHandlerThrows) {
+TEST(LcmReceiver, HandlerThrows_Rethrown) {
   SKIP_WITHOUT_MULTICAST();
   LcmReceiver receiver(kUrl);
   receiver.subscribe("TEST_THROW",
@@ -183,7 +184,7 @@ TEST(LcmReceiver, PassesOnWhatAHandlerThrows) {
   EXPECT_FALSE(receiver.receive(std::chrono::milliseconds(20)));
 }
 
-TEST(LcmReceiver, AsksForALargeReceiveBuffer) {
+TEST(LcmReceiver, ReceiveBuffer_AddedToUrl) {
   const LcmUrl url = parse_lcm_url(kUrl);
   const std::string plain = kUrl;
   EXPECT_EQ(with_receive_buffer(url, 4096, std::nullopt).text(), plain + "&recv_buf_size=4096");
@@ -193,7 +194,7 @@ TEST(LcmReceiver, AsksForALargeReceiveBuffer) {
   EXPECT_EQ(with_receive_buffer(parse_lcm_url("memq://"), 4096, std::nullopt).text(), "memq://");
 }
 
-TEST(LcmReceiver, AdvisesOnlyWhenTheKernelAllowsTooLittle) {
+TEST(LcmReceiver, SmallKernelLimit_Advice) {
   EXPECT_FALSE(receive_buffer_advice(std::nullopt));
   EXPECT_FALSE(receive_buffer_advice(4 << 20));
   const auto instruction = receive_buffer_advice(212992);
@@ -201,7 +202,7 @@ TEST(LcmReceiver, AdvisesOnlyWhenTheKernelAllowsTooLittle) {
   EXPECT_NE(instruction->find("sudo sysctl -w net.core.rmem_max="), std::string::npos);
 }
 
-TEST(LcmUrl, DefaultsToTheEnvironmentAndThenToThisMachine) {
+TEST(LcmUrl, Empty_EnvironmentThenDefault) {
   unsetenv("LCM_DEFAULT_URL");
   EXPECT_EQ(effective_lcm_url(""), kDefaultLcmUrl);
   setenv("LCM_DEFAULT_URL", "memq://", 1);
@@ -210,7 +211,7 @@ TEST(LcmUrl, DefaultsToTheEnvironmentAndThenToThisMachine) {
   unsetenv("LCM_DEFAULT_URL");
 }
 
-TEST(LcmUrl, KnowsAddressAndPort) {
+TEST(LcmUrl, Udpm_AddressAndPort) {
   EXPECT_EQ(udpm_address(parse_lcm_url("udpm://239.1.2.3")), std::pair(std::string("239.1.2.3"), 7667));
   EXPECT_EQ(udpm_address(parse_lcm_url("udpm://239.1.2.3:99?ttl=1")),
             std::pair(std::string("239.1.2.3"), 99));

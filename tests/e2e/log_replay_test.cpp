@@ -1,4 +1,5 @@
-// A problem in the field, reproduced on the desk: stereod, recorded by stereo-tap, replayed by stereod.
+// SPDX-License-Identifier: BSD-3-Clause
+// A problem in the field, reproduced in the lab: stereod, recorded by stereo-tap, replayed by stereod.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -21,7 +22,7 @@ namespace {
 using testing::HasSubstr;
 
 constexpr Size kSize{320, 240};
-constexpr const char* kUrl = "udpm://239.255.76.67:17667?ttl=0";  // a port of the tests' own
+constexpr const char* kUrl = "udpm://239.255.76.67:17667?ttl=0";  // a port for tests only
 const std::filesystem::path kBin = STEREOD_BIN_DIR;
 
 class LogReplay : public testing::Test {
@@ -36,12 +37,12 @@ class LogReplay : public testing::Test {
         << "lcm: {url: \"" << kUrl << "\", prefix: FIELD, raw_images: true, "
         << "raw_images_per_second: 60}\n";
     ChildProgram stereod(kBin / "stereod", {"--config", field.string()}, directory_.path());
-    // The recording's seconds begin when there is something to record, however slow the machine.
+    // Recording starts when frames are published, even on a slow machine.
     const ProgramRun first = run_program(kBin / "stereo-tap",
                                          {"save", "--frames", "1", "--timeout", "60", "--out",
                                           directory_.path().string(), "--lcm-url", kUrl, "--prefix", "FIELD"},
                                          directory_.path());
-    ASSERT_NE(first.status, 2) << first.err;  // nothing arrived; of the first frame something may be missing
+    ASSERT_NE(first.status, 2) << first.err;  // status 2: nothing arrived; the first frame may be incomplete
     recording_ =
         run_program(kBin / "stereo-tap",
                     {"record", log_.string(), "--seconds", "3", "--lcm-url", kUrl, "--prefix", "FIELD"},
@@ -53,25 +54,25 @@ class LogReplay : public testing::Test {
   ProgramRun recording_;
 };
 
-TEST_F(LogReplay, GivesTheSameDisparitiesToTheBitAtTheSameTimes) {
+TEST_F(LogReplay, RecordedByTap_SameDisparities) {
   ASSERT_EQ(recording_.status, 0) << recording_.err;
   EXPECT_THAT(recording_.out, HasSubstr("FIELD_LEFT_RAW"));
   EXPECT_THAT(recording_.out, HasSubstr("FIELD_DISPARITY"));
   const std::map<std::int64_t, StereoFrame> field = frames_of(log_, "FIELD");
   ASSERT_GT(field.size(), 5U);
 
-  const std::filesystem::path pair_queue = directory_ / "desk.yaml", desk_log = directory_ / "desk.lcm";
-  std::ofstream(pair_queue) << "cameras: {source: log, fps: 0, log: {file: field.lcm, prefix: FIELD}}\n"
-                            << "calibration: calibration.yaml\n"
-                            << "lcm: {url: \"file://" << desk_log.string() << "?mode=w\", prefix: DESK}\n";
-  const ProgramRun run = run_program(kBin / "stereod", {"--config", pair_queue.string()}, directory_.path());
+  const std::filesystem::path lab = directory_ / "lab.yaml", lab_log = directory_ / "lab.lcm";
+  std::ofstream(lab) << "cameras: {source: log, fps: 0, log: {file: field.lcm, prefix: FIELD}}\n"
+                     << "calibration: calibration.yaml\n"
+                     << "lcm: {url: \"file://" << lab_log.string() << "?mode=w\", prefix: LAB}\n";
+  const ProgramRun run = run_program(kBin / "stereod", {"--config", lab.string()}, directory_.path());
   EXPECT_EQ(run.status, 0) << run.err;
-  const std::map<std::int64_t, StereoFrame> replayed = frames_of(desk_log, "DESK");
+  const std::map<std::int64_t, StereoFrame> replayed = frames_of(lab_log, "LAB");
   ASSERT_GT(replayed.size(), 5U);
   int compared = 0;
   for (const auto& [utime, frame] : replayed) {
     const auto original = field.find(utime);
-    if (original == field.end()) continue;  // only its raw images were recorded
+    if (original == field.end()) continue;  // only the raw images of this frame were recorded
     ++compared;
     EXPECT_EQ(frame.summary->skew_us, original->second.summary->skew_us);
     for (int y = 0; y < kSize.height; ++y) {
@@ -84,7 +85,7 @@ TEST_F(LogReplay, GivesTheSameDisparitiesToTheBitAtTheSameTimes) {
   EXPECT_GE(compared, static_cast<int>(replayed.size()) - 2);
 }
 
-TEST_F(LogReplay, StereoTapSaysWhatIsInTheLogAndPlaysIt) {
+TEST_F(LogReplay, StereoTap_ListsAndPlays) {
   const auto tap = [&](const std::vector<std::string>& arguments) {
     return run_program(kBin / "stereo-tap", arguments, directory_.path());
   };
@@ -104,8 +105,7 @@ TEST_F(LogReplay, StereoTapSaysWhatIsInTheLogAndPlaysIt) {
   EXPECT_GE(frames, 3);
   EXPECT_EQ(play.wait().status, 0);
 
-  // A message's time is more than an hour ahead: one byte of the first event's, behind its mark and its
-  // number.
+  // Moves the time of the first event by more than an hour: one byte behind the sync word and the number.
   std::fstream damaged(log_, std::ios::in | std::ios::out | std::ios::binary);
   constexpr int kMark = 4, kNumber = 8, kFourthByte = 3;
   damaged.seekg(kMark + kNumber + kFourthByte);

@@ -1,5 +1,6 @@
-// The daemon as systemd runs it: what it says on NOTIFY_SOCKET, and SIGHUP. What it publishes goes to a log
-// of LCM, in which nothing is lost on the way.
+// SPDX-License-Identifier: BSD-3-Clause
+// The daemon as systemd runs it: notifications on NOTIFY_SOCKET, and SIGHUP. It publishes to an LCM log, so
+// that no message is lost on the way.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <lcm/lcm.h>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/lcm/message_decoder.h"
 #include "stereod/disparity_rows_t.hpp"
 #include "stereod/frame_t.hpp"
 #include "stereod/status_t.hpp"
@@ -29,7 +31,7 @@ using testing::HasSubstr;
 
 const std::filesystem::path kBin = STEREOD_BIN_DIR;
 
-/// All that was published.
+/// Everything that was published.
 struct Published {
   std::vector<frame_t> frames;
   std::map<std::string, std::vector<disparity_rows_t>> rows;  // by channel
@@ -39,7 +41,7 @@ struct Published {
 template <typename Message>
 Message decoded(const lcm_eventlog_event_t& event) {
   Message message{};
-  EXPECT_EQ(message.decode(event.data, 0, event.datalen), event.datalen);
+  EXPECT_TRUE(decode_message(event.data, static_cast<std::size_t>(event.datalen), message));
   return message;
 }
 
@@ -76,11 +78,11 @@ class ServiceE2e : public testing::Test {
   NotifySocket systemd_{directory_.path(), std::chrono::seconds(10)};
   const std::filesystem::path file_ = directory_ / "stereod.yaml";
   const std::filesystem::path log_ = directory_ / "published.lcm";
-  static constexpr const char* kFolder = "fps: 0, replay: {directory: .}";
+  static constexpr const char* kDirectory = "fps: 0, replay: {directory: .}";
 };
 
-TEST_F(ServiceE2e, SighupTakesOverEverySettingWithoutLosingAFrame) {
-  write(kFolder, "", "matcher: {preset: thesis, disparities: 24}\n");
+TEST_F(ServiceE2e, Sighup_NoFrameLost) {
+  write(kDirectory, "", "matcher: {preset: thesis, disparities: 24}\n");
   const auto stereod = start();
   ASSERT_TRUE(systemd_.wait_for("READY=1")) << stereod->err_so_far();
   const auto reload = [&] {
@@ -89,15 +91,15 @@ TEST_F(ServiceE2e, SighupTakesOverEverySettingWithoutLosingAFrame) {
     EXPECT_TRUE(systemd_.wait_for("RELOADING=1"));
     EXPECT_TRUE(systemd_.wait_for("READY=1"));
   };
-  write(kFolder, "", "matcher: {preset: robust, disparities: 40}\ncalibration: calibration.yaml\n");
+  write(kDirectory, "", "matcher: {preset: robust, disparities: 40}\ncalibration: calibration.yaml\n");
   reload();
-  write(kFolder, ", prefix: OTHER, rows_per_message: 5, pacing: 0", "workers: 3\n");
+  write(kDirectory, ", prefix: OTHER, rows_per_message: 5, pacing: 0", "workers: 3\n");
   reload();
-  write(kFolder, ", prefix: OTHER, pacing: 0.1", "matcher: {windw: 3}\n");
+  write(kDirectory, ", prefix: OTHER, pacing: 0.1", "matcher: {windw: 3}\n");
   reload();
-  write(kFolder, ", prefix: OTHER, pacing: 0.1", "log: {level: error}\n");
+  write(kDirectory, ", prefix: OTHER, pacing: 0.1", "log: {level: error}\n");
   reload();
-  reload();  // would log, at another level
+  reload();  // the level is error, so this one is not logged
   stereod->send(SIGTERM);
   const ProgramRun run = stereod->wait();
   systemd_.receive(std::chrono::milliseconds(50));
@@ -126,53 +128,52 @@ TEST_F(ServiceE2e, SighupTakesOverEverySettingWithoutLosingAFrame) {
   EXPECT_EQ(published.rows.at("OTHER_DISPARITY").front().row_count, 5);
   EXPECT_GT(published.rows.at("OTHER_DISPARITY").back().row_count, 5) << "the default again";
 
-  const std::size_t complaint =
-      run.err.find(" error: the configuration was not taken over: " + file_.string() +
+  const std::size_t problem =
+      run.err.find(" error: reload failed, keeping the previous configuration: " + file_.string() +
                    ":3: matcher.windw: is not a known key");
-  EXPECT_NE(complaint, std::string::npos) << run.err;
-  const auto taken_over = [&](std::size_t from) {
+  EXPECT_NE(problem, std::string::npos) << run.err;
+  const auto reloads = [&](std::size_t from) {
     int count = 0;
-    for (std::size_t at = from; (at = run.err.find("the configuration was read again", at)) != run.err.npos;
-         ++at) {
+    for (std::size_t at = from; (at = run.err.find("configuration reloaded", at)) != run.err.npos; ++at) {
       ++count;
     }
     return count;
   };
-  EXPECT_EQ(taken_over(0), 2) << "what is no error is logged no more\n" << run.err;
+  EXPECT_EQ(reloads(0), 2) << "at level error, reloads are not logged\n" << run.err;
 }
 
-TEST_F(ServiceE2e, CamerasAreSetUpAnewOnlyIfTheirSectionHasChanged) {
-  write(kFolder, "", "");
+TEST_F(ServiceE2e, Sighup_CamerasRestartedOnlyIfChanged) {
+  write(kDirectory, "", "");
   const auto stereod = start();
   ASSERT_TRUE(systemd_.wait_for("READY=1")) << stereod->err_so_far();
   write("fps: 30, replay: {left: left_00.png, right: right_00.png}", "", "");
   stereod->send(SIGHUP);
   EXPECT_TRUE(systemd_.wait_for("RELOADING=1"));
   EXPECT_TRUE(systemd_.wait_for("READY=1"));
-  EXPECT_TRUE(systemd_.wait_for("STATUS=Uncalibrated: "));
+  EXPECT_TRUE(systemd_.wait_for("STATUS=uncalibrated: "));
   write("fps: 30, replay: {left: left_00.png, right: gone.png}", "", "");
   stereod->send(SIGHUP);
   EXPECT_TRUE(systemd_.wait_for("RELOADING=1"));
-  EXPECT_TRUE(systemd_.wait_for("STATUS=Uncalibrated: "));
-  EXPECT_TRUE(systemd_.wait_for("STATUS=Uncalibrated: "));
-  EXPECT_THAT(systemd_.latest("STATUS="), HasSubstr("the configuration was not taken over: "));
+  EXPECT_TRUE(systemd_.wait_for("STATUS=uncalibrated: "));
+  EXPECT_TRUE(systemd_.wait_for("STATUS=uncalibrated: "));
+  EXPECT_THAT(systemd_.latest("STATUS="), HasSubstr("reload failed, keeping the previous configuration: "));
   EXPECT_THAT(systemd_.latest("STATUS="), HasSubstr("gone.png"));
   stereod->send(SIGTERM);
   const ProgramRun run = stereod->wait();
   EXPECT_EQ(run.status, 0);
-  EXPECT_THAT(run.err, HasSubstr("; the cameras are set up anew"));
+  EXPECT_THAT(run.err, HasSubstr("configuration reloaded, cameras restarted: "));
   const Published published = read_log(log_);
   std::size_t began_again = 0;
   for (std::size_t i = 1; i < published.frames.size(); ++i) {
-    ASSERT_EQ(published.frames[i].frame, static_cast<std::int64_t>(i)) << "frames are numbered on";
+    ASSERT_EQ(published.frames[i].frame, static_cast<std::int64_t>(i)) << "frame numbers continue";
     if (published.frames[i].left_sequence < published.frames[i - 1].left_sequence) ++began_again;
   }
-  EXPECT_EQ(began_again, 1u) << "the file that cannot work left the cameras alone";
+  EXPECT_EQ(began_again, 1u) << "the failed reload did not restart the cameras";
   EXPECT_THAT(published.statuses.back().reason, HasSubstr("gone.png"));
 }
 
-// A log that is a pipe which nobody empties: the publisher waits for ever, as with a disk that hangs.
-TEST_F(ServiceE2e, WedgedItIsNotAliveAndAfterwardsItIsAgain) {
+// The log is a pipe that is not read: the publisher blocks, as on a disk that hangs.
+TEST_F(ServiceE2e, Stalled_NotAliveUntilRecovered) {
   ASSERT_EQ(::mkfifo(log_.c_str(), 0600), 0);
   const int pipe = ::open(log_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
   ASSERT_GE(pipe, 0);

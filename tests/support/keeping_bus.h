@@ -1,4 +1,5 @@
-// A message bus that keeps what one test wants to look at.
+// SPDX-License-Identifier: BSD-3-Clause
+// A message bus that keeps the messages of one channel.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,11 +11,12 @@
 #include <vector>
 
 #include "daemon/lcm/message_bus.h"
+#include "daemon/lcm/message_decoder.h"
 #include "stereod/frame_t.hpp"
 
 namespace stereod {
 
-/// Keeps the messages of one channel, and frames, which are published on T_FRAME; one that cannot be decoded
+/// Keeps the messages of one channel, and the frame summaries on T_FRAME. A message that cannot be decoded
 /// fails the test.
 template <typename Message>
 class KeepingBus final : public MessageBus {
@@ -39,7 +41,7 @@ class KeepingBus final : public MessageBus {
  private:
   template <typename Kept>
   static void keep(std::vector<Kept>& all, const void* data, std::size_t size) {
-    EXPECT_EQ(all.emplace_back().decode(data, 0, static_cast<int>(size)), static_cast<int>(size));
+    EXPECT_TRUE(decode_message({static_cast<const std::byte*>(data), size}, all.emplace_back()));
   }
 
   const std::string channel_;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/network.h"
 
 #include <arpa/inet.h>
@@ -13,7 +14,7 @@ namespace stereod {
 namespace {
 
 constexpr const char* kRemedy =
-    "; run the tests by tests/run.sh, or in a namespace: unshare -rn sh -c 'ip link set lo up; ip route add "
+    "; run the tests with tests/run.sh, or in a namespace: unshare -rn sh -c 'ip link set lo up; ip route add "
     "224.0.0.0/4 dev lo; exec ctest'";
 
 std::string because(const std::string& step) { return step + ": " + std::strerror(errno) + kRemedy; }
@@ -48,17 +49,17 @@ std::optional<std::string> why_no_multicast() {
   ip_mreq group{};
   inet_pton(AF_INET, "239.255.76.67", &group.imr_multiaddr);
   if (setsockopt(receiver.fd(), IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group) != 0) {
-    return because("multicast group 239.255.76.67 cannot be joined");
+    return because("cannot join the multicast group 239.255.76.67");
   }
   const unsigned char ttl = 0;
   setsockopt(sender.fd(), IPPROTO_IP, IP_MULTICAST_TTL, &ttl, sizeof ttl);
   address.sin_addr = group.imr_multiaddr;
   if (sendto(sender.fd(), "?", 1, 0, generic, sizeof address) != 1) {
-    return because("nothing can be sent to the multicast group 239.255.76.67");
+    return because("cannot send to the multicast group 239.255.76.67");
   }
   pollfd waiting{receiver.fd(), POLLIN, 0};
   if (poll(&waiting, 1, 1000) == 1) return std::nullopt;
-  return std::string("what is sent to the multicast group 239.255.76.67 does not come back") + kRemedy;
+  return std::string("datagrams sent to the multicast group 239.255.76.67 do not come back") + kRemedy;
 }
 
 }  // namespace stereod

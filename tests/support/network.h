@@ -1,4 +1,5 @@
-// What this machine's network can do, for the tests that need it.
+// SPDX-License-Identifier: BSD-3-Clause
+// Checks the network of this machine, for tests that need it.
 #pragma once
 
 #include <optional>
@@ -6,8 +7,8 @@
 
 namespace stereod {
 
-/// Why LCM's multicast group 239.255.76.67 cannot be used here, as a sentence for GTEST_SKIP; nothing if what
-/// is sent to it comes back. Sends one datagram that stays on this machine, to a port of its own.
+/// Returns why LCM's multicast group 239.255.76.67 cannot be used, for GTEST_SKIP; nothing if it works. Sends
+/// one datagram that stays on this machine, to an unused port.
 std::optional<std::string> why_no_multicast();
 
 }  // namespace stereod

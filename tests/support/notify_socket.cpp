@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/notify_socket.h"
 
 #include <poll.h>
@@ -30,7 +31,7 @@ NotifySocket::NotifySocket(const std::filesystem::path& directory, std::chrono::
   if (path.size() >= sizeof address.sun_path) throw std::runtime_error(path + " is too long for a socket");
   std::memcpy(address.sun_path, path.c_str(), path.size());
   if (bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-    throw std::runtime_error("no socket can be made at " + path);
+    throw std::runtime_error("cannot create a socket at " + path);
   }
   ::setenv("NOTIFY_SOCKET", path.c_str(), 1);
   if (watchdog.count() > 0) ::setenv("WATCHDOG_USEC", std::to_string(watchdog.count()).c_str(), 1);

@@ -1,4 +1,5 @@
-// systemd's end of sd_notify(3), for tests.
+// SPDX-License-Identifier: BSD-3-Clause
+// The receiving end of sd_notify(3), for tests.
 #pragma once
 
 #include <chrono>
@@ -9,32 +10,32 @@
 
 namespace stereod {
 
-/// While it lives, this process and the programs it starts find NOTIFY_SOCKET in their environment, and
-/// WATCHDOG_USEC if `watchdog` is not 0. Keeps what they say.
+/// Sets NOTIFY_SOCKET, and WATCHDOG_USEC if `watchdog` is not 0, in the environment of this process and the
+/// programs it starts, for its lifetime. Keeps the messages it receives.
 class NotifySocket {
  public:
-  /// The socket lies in `directory`.
+  /// Creates the socket in @p directory.
   explicit NotifySocket(const std::filesystem::path& directory,
                         std::chrono::microseconds watchdog = std::chrono::microseconds(0));
   ~NotifySocket();
   NotifySocket(const NotifySocket&) = delete;
   NotifySocket& operator=(const NotifySocket&) = delete;
 
-  /// Waits until a message was received that begins with `beginning`, from this call on; false if none came
-  /// in time. `meanwhile` is called all the while.
+  /// Waits for a message that starts with @p beginning; messages before this call do not count. Calls @p
+  /// meanwhile repeatedly. Returns false if none arrived in time.
   bool wait_for(
       const std::string& beginning, std::chrono::seconds patience = std::chrono::seconds(60),
       const std::function<void()>& meanwhile = [] {});
 
-  /// Receives for so long.
+  /// Receives messages for @p duration.
   void receive(
       std::chrono::milliseconds duration, const std::function<void()>& meanwhile = [] {});
 
-  /// How many of the messages kept begin like this.
+  /// Returns how many of the kept messages start with @p beginning.
   int count(const std::string& beginning) const;
-  /// The latest of them; empty if there is none.
+  /// Returns the latest of them; empty if there is none.
   std::string latest(const std::string& beginning) const;
-  /// Everything but the watchdog's and the status lines, in order; only first lines.
+  /// Returns the first lines of all messages in order, without watchdog pings and status lines.
   std::vector<std::string> changes() const;
   void forget() { messages_.clear(); }
 

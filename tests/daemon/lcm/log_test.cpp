@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/lcm/log.h"
 
 #include <gmock/gmock.h>
@@ -41,7 +42,7 @@ class LcmLog : public testing::Test {
   const std::filesystem::path file_ = directory_ / "test.lcm";
 };
 
-TEST_F(LcmLog, ReadsBackWhatItWrote) {
+TEST_F(LcmLog, Written_ReadBack) {
   write_three();
   LcmLogReader reader(file_);
   LogEvent event;
@@ -57,8 +58,8 @@ TEST_F(LcmLog, ReadsBackWhatItWrote) {
   EXPECT_EQ(reader.damaged_places(), 0);
 }
 
-// Its own reader and writer and LCM's understand each other.
-TEST_F(LcmLog, IsTheFormatOfLcmsOwnTools) {
+// Reader and writer are compatible with LCM's own.
+TEST_F(LcmLog, Format_OfLcmTools) {
   write_three();
   lcm_eventlog_t* log = lcm_eventlog_create(file_.c_str(), "r");
   int events = 0;
@@ -89,8 +90,8 @@ TEST_F(LcmLog, IsTheFormatOfLcmsOwnTools) {
   EXPECT_EQ(read.data, bytes_of("data"));
 }
 
-TEST_F(LcmLog, TellsWhatIsNoLog) {
-  const auto complaint = [&] {
+TEST_F(LcmLog, NoLog_Error) {
+  const auto error_text = [&] {
     try {
       const LcmLogReader reader(file_);
     } catch (const BusError& error) {
@@ -98,18 +99,18 @@ TEST_F(LcmLog, TellsWhatIsNoLog) {
     }
     return std::string();
   };
-  EXPECT_THAT(complaint(), testing::HasSubstr("cannot be opened: No such file"));
+  EXPECT_THAT(error_text(), testing::HasSubstr("cannot be opened: No such file"));
   overwrite("");
-  EXPECT_THAT(complaint(), testing::HasSubstr("this is no LCM log"));
+  EXPECT_THAT(error_text(), testing::HasSubstr("this is no LCM log"));
   overwrite("# some text\n");
-  EXPECT_THAT(complaint(), testing::HasSubstr("this is no LCM log"));
+  EXPECT_THAT(error_text(), testing::HasSubstr("this is no LCM log"));
   EXPECT_THROW(LcmLogWriter(directory_ / "no" / "such" / "directory.lcm"), BusError);
 }
 
-TEST_F(LcmLog, GoesOnAfterDamage) {
+TEST_F(LcmLog, Damage_Skipped) {
   write_three();
   std::string bytes = content();
-  bytes[24] = 0x7F;  // the first message says it is 2 GB long
+  bytes[24] = 0x7F;  // the first message claims a length of 2 GB
   overwrite(bytes);
   LcmLogReader reader(file_);
   LogEvent event;
@@ -120,7 +121,7 @@ TEST_F(LcmLog, GoesOnAfterDamage) {
   EXPECT_EQ(reader.damaged_places(), 1);
 }
 
-TEST_F(LcmLog, ReadsALogThatWasCutOffAnywhere) {
+TEST_F(LcmLog, Truncated_ReadToTheCut) {
   write_three();
   const std::string bytes = content();
   for (std::size_t size = 4; size < bytes.size(); size += size < 200 ? 1 : 997) {
@@ -134,7 +135,7 @@ TEST_F(LcmLog, ReadsALogThatWasCutOffAnywhere) {
   }
 }
 
-TEST_F(LcmLog, SurvivesRandomDamage) {
+TEST_F(LcmLog, RandomDamage_Survives) {
   write_three();
   const std::string good = content();
   Random random(4);
@@ -152,7 +153,7 @@ TEST_F(LcmLog, SurvivesRandomDamage) {
   }
 }
 
-TEST(LogSummary, CountsByChannel) {
+TEST(LogSummary, Messages_CountedByChannel) {
   tools::LogSummary summary;
   for (int i = 0; i < 11; ++i) summary.add("STEREO_FRAME", i * 100'000, 100);
   summary.add("STEREO_\x1b[2J", 1'000'000, 2'500'000);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/lcm/message_decoder.h"
 
 #include <gtest/gtest.h>
@@ -39,6 +40,28 @@ planar_lidar_t sample() {
   return scan;
 }
 template <>
+depth_rows_t sample() {
+  depth_rows_t rows{};
+  rows.size = 40;
+  rows.data.assign(40, 3);
+  return rows;
+}
+template <>
+pointcloud_t sample() {
+  pointcloud_t cloud{};
+  cloud.frame_id = "stereo_left";
+  cloud.n_points = 2;
+  cloud.points = {{1, 2, 3}, {4, 5, 6}};
+  return cloud;
+}
+template <>
+camera_status_t sample() {
+  camera_status_t camera{};
+  camera.name = "left";
+  camera.reconnects = 12;
+  return camera;
+}
+template <>
 status_t sample() {
   status_t status{};
   status.state = "degraded";
@@ -49,22 +72,23 @@ status_t sample() {
 
 template <typename Message>
 class Decoding : public testing::Test {};
-using Messages = testing::Types<disparity_rows_t, frame_t, camera_info_t, status_t, image_t, planar_lidar_t>;
+using Messages = testing::Types<disparity_rows_t, frame_t, camera_info_t, status_t, image_t, planar_lidar_t,
+                                depth_rows_t, pointcloud_t, camera_status_t>;
 TYPED_TEST_SUITE(Decoding, Messages);
 
-// Also the proof that kWireLayout says what the .lcm files say.
-TYPED_TEST(Decoding, GivesBackWhatWasEncoded) {
+// Also proves that kWireLayout agrees with the .lcm files.
+TYPED_TEST(Decoding, Encoded_DecodedEqual) {
   const auto bytes = encoded(sample<TypeParam>());
   TypeParam back;
   ASSERT_TRUE(decode_message(bytes, back));
   EXPECT_EQ(encoded(back), bytes);
 }
 
-TYPED_TEST(Decoding, RefusesEveryOtherLength) {
+TYPED_TEST(Decoding, OtherLength_Refused) {
   std::vector<std::byte> bytes = encoded(sample<TypeParam>());
   TypeParam back;
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    // A copy of its own, so that an address sanitizer sees a read past its end.
+    // A copy, so that the address sanitizer sees a read past its end.
     const std::vector<std::byte> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
     EXPECT_FALSE(decode_message(cut, back)) << size;
   }
@@ -72,14 +96,14 @@ TYPED_TEST(Decoding, RefusesEveryOtherLength) {
   EXPECT_FALSE(decode_message(bytes, back));
 }
 
-TYPED_TEST(Decoding, RefusesAnotherMessagesFingerprint) {
+TYPED_TEST(Decoding, OtherFingerprint_Refused) {
   std::vector<std::byte> bytes = encoded(sample<TypeParam>());
   bytes[3] ^= std::byte{1};
   TypeParam back;
   EXPECT_FALSE(decode_message(bytes, back));
 }
 
-TYPED_TEST(Decoding, SurvivesAnyFourBytesAnywhere) {
+TYPED_TEST(Decoding, AnyFourBytes_Survives) {
   const std::vector<std::byte> bytes = encoded(sample<TypeParam>());
   for (const std::uint32_t value :
        {0U, 1U, 0x7FFFFFFFU, 0x80000000U, 0xFFFFFFFFU, 0xFFFFFFF0U, 0x10000000U}) {
@@ -93,7 +117,7 @@ TYPED_TEST(Decoding, SurvivesAnyFourBytesAnywhere) {
   }
 }
 
-TYPED_TEST(Decoding, SurvivesRandomBytes) {
+TYPED_TEST(Decoding, RandomBytes_Survives) {
   Random random(5);
   const std::vector<std::byte> start = encoded(sample<TypeParam>());
   for (int round = 0; round < 2000; ++round) {

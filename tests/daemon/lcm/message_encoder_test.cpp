@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/lcm/message_encoder.h"
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/lcm/message_decoder.h"
 #include "stereod/disparity_rows_t.hpp"
 #include "stereod/status_t.hpp"
 #include "tests/support/allocation_counter.h"
@@ -43,13 +45,13 @@ class RecordingBus : public MessageBus {
   std::vector<std::byte> bytes_;
 };
 
-TEST(MessageEncoder, WritesWhatDecodesToTheSame) {
+TEST(MessageEncoder, Encoded_DecodedEqual) {
   const disparity_rows_t rows = some_rows(640, 16);
   MessageEncoder encoder(65000);
   const auto bytes = encoder.encode(rows);
   ASSERT_EQ(bytes.size(), static_cast<std::size_t>(rows.getEncodedSize()));
   disparity_rows_t back;
-  ASSERT_EQ(back.decode(bytes.data(), 0, static_cast<int>(bytes.size())), static_cast<int>(bytes.size()));
+  ASSERT_TRUE(decode_message(bytes, back));
   EXPECT_EQ(back.utime, rows.utime);
   EXPECT_EQ(back.frame, rows.frame);
   EXPECT_EQ(back.scale, rows.scale);
@@ -57,7 +59,7 @@ TEST(MessageEncoder, WritesWhatDecodesToTheSame) {
   EXPECT_TRUE(back.filled.empty());
 }
 
-TEST(MessageEncoder, SendsTheBytesOnTheChannel) {
+TEST(MessageEncoder, Publish_BytesOnChannel) {
   RecordingBus bus;
   MessageEncoder encoder(65000);
   const disparity_rows_t rows = some_rows(64, 2);
@@ -68,7 +70,7 @@ TEST(MessageEncoder, SendsTheBytesOnTheChannel) {
   EXPECT_FALSE(encoder.publish(bus, "STEREO_DISPARITY", rows));
 }
 
-TEST(MessageEncoder, TakesAMessageThatFillsTheBufferAndNotOneByteMore) {
+TEST(MessageEncoder, BufferFull_OneByteMoreRefused) {
   const disparity_rows_t rows = some_rows(100, 4);
   const auto size = static_cast<std::size_t>(rows.getEncodedSize());
   MessageEncoder fits(size);
@@ -80,7 +82,7 @@ TEST(MessageEncoder, TakesAMessageThatFillsTheBufferAndNotOneByteMore) {
   EXPECT_TRUE(bus.channel_.empty());
 }
 
-TEST(MessageEncoder, RefusesASizeThatIsNotTheDatas) {
+TEST(MessageEncoder, WrongSizeField_Refused) {
   MessageEncoder encoder(65000);
   disparity_rows_t rows = some_rows(100, 4);
   for (const int size : {rows.size + 1, rows.size - 1, -1, 0}) {
@@ -89,7 +91,7 @@ TEST(MessageEncoder, RefusesASizeThatIsNotTheDatas) {
   }
 }
 
-TEST(MessageEncoder, AllocatesNothing) {
+TEST(MessageEncoder, Encode_NoAllocation) {
   if (!AllocationCounter::supported()) GTEST_SKIP() << "this build does not count allocations";
   const disparity_rows_t rows = some_rows(640, 16);
   status_t status{};

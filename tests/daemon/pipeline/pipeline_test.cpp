@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/pipeline/pipeline.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 
 #include "core/match/frame_matcher.h"
 #include "daemon/capture/synthetic/synthetic_scene.h"
-#include "daemon/service/status_reporter.h"
+#include "daemon/lcm/message_decoder.h"
 #include "tests/support/allocation_counter.h"
 
 namespace stereod {
@@ -19,7 +20,7 @@ namespace {
 
 constexpr Size kSize{160, 120};
 
-/// Keeps what is published, or only counts it.
+/// Counts what is published, and keeps it if `keep`.
 class FakeBus final : public MessageBus {
  public:
   explicit FakeBus(bool keep) : keep_(keep) {}
@@ -29,7 +30,6 @@ class FakeBus final : public MessageBus {
     if (std::strstr(channel, "_FRAME") != nullptr) ++frames_;
     if (keep_ && std::strstr(channel, "_FRAME") != nullptr) decode(data, size, frame_messages_);
     if (keep_ && std::strstr(channel, "_DISPARITY") != nullptr) decode(data, size, row_messages_);
-    if (keep_ && std::strstr(channel, "_STATUS") != nullptr) decode(data, size, status_messages_);
     if (std::strstr(channel, "_RAW") != nullptr) {
       ++raw_images_;
       if (keep_) decode(data, size, raw_images_of_[channel]);
@@ -57,10 +57,6 @@ class FakeBus final : public MessageBus {
     const std::lock_guard lock(mutex_);
     return row_messages_;
   }
-  std::vector<status_t> status_messages() {
-    const std::lock_guard lock(mutex_);
-    return status_messages_;
-  }
   std::vector<image_t> raw_images(const std::string& channel) {
     const std::lock_guard lock(mutex_);
     return raw_images_of_[channel];
@@ -78,9 +74,7 @@ class FakeBus final : public MessageBus {
  private:
   template <typename Message>
   static void decode(const void* data, std::size_t size, std::vector<Message>& messages) {
-    Message message{};
-    EXPECT_EQ(message.decode(data, 0, static_cast<int>(size)), static_cast<int>(size));
-    messages.push_back(std::move(message));
+    EXPECT_TRUE(decode_message({static_cast<const std::byte*>(data), size}, messages.emplace_back()));
   }
 
   const bool keep_;
@@ -92,7 +86,6 @@ class FakeBus final : public MessageBus {
   std::map<std::string, std::vector<image_t>> raw_images_of_;
   std::vector<frame_t> frame_messages_;
   std::vector<disparity_rows_t> row_messages_;
-  std::vector<status_t> status_messages_;
 };
 
 Config config_for(const char* preset, int workers) {
@@ -109,7 +102,7 @@ Config config_for(const char* preset, int workers) {
   return config;
 }
 
-/// The same matcher on the same image, without pipeline.
+/// Returns the disparities of the same frame from the same matcher, without the pipeline.
 DisparityImage expected_disparity(const Config& config, std::int64_t frame) {
   const SyntheticScene scene(kSize);
   const int number = static_cast<int>(frame % scene.frames());
@@ -148,7 +141,7 @@ bool wire_filled(const disparity_rows_t& message, int row, int x) {
 
 class PipelineOutput : public testing::TestWithParam<std::tuple<const char*, int>> {};
 
-TEST_P(PipelineOutput, IsEveryRowOfEveryFrameToTheBit) {
+TEST_P(PipelineOutput, AnyWorkers_EveryRowExact) {
   const Config config = config_for(std::get<0>(GetParam()), std::get<1>(GetParam()));
   constexpr int kFrames = 6;
   FakeBus bus(true);
@@ -157,7 +150,7 @@ TEST_P(PipelineOutput, IsEveryRowOfEveryFrameToTheBit) {
     bus.wait_for_frames(kFrames);
     pipeline.stop();
   }
-  std::map<std::int64_t, std::vector<int>> seen;  // frame: how often each of its rows came
+  std::map<std::int64_t, std::vector<int>> seen;  // by frame: how often each row was published
   std::map<std::int64_t, DisparityImage> expected;
   for (const disparity_rows_t& message : bus.row_messages()) {
     if (message.frame >= kFrames) continue;
@@ -189,7 +182,7 @@ TEST_P(PipelineOutput, IsEveryRowOfEveryFrameToTheBit) {
   for (int i = 0; i < kFrames; ++i) {
     const frame_t& frame = frames.at(static_cast<std::size_t>(i));
     EXPECT_EQ(frame.frame, i);
-    EXPECT_EQ(frame.left_sequence, i) << "as fast as frames are matched, none is lost";
+    EXPECT_EQ(frame.left_sequence, i) << "a source without rate limit loses no frame";
     EXPECT_EQ(frame.right_sequence, i);
     EXPECT_EQ(frame.skew_us, 0);
     EXPECT_EQ(frame.rows, kSize.height);
@@ -205,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(Pipeline, PipelineOutput,
                          testing::Combine(testing::Values("thesis", "fast", "robust", "dense", "fine"),
                                           testing::Values(1, 2, 5)));
 
-TEST(Pipeline, MessagesOfAFrameShareItsTimeAndFollowItsRows) {
+TEST(Pipeline, MessagesOfAFrame_SameUtime) {
   const Config config = config_for("fast", 2);
   FakeBus bus(true);
   Pipeline pipeline(config, open_stereo_source(config), bus);
@@ -219,15 +212,15 @@ TEST(Pipeline, MessagesOfAFrameShareItsTimeAndFollowItsRows) {
   }
 }
 
-TEST(Pipeline, AllocatesNothingPerFrame) {
+TEST(Pipeline, PerFrame_NoAllocation) {
   if (!AllocationCounter::supported()) GTEST_SKIP() << "allocations cannot be counted in this build";
   for (const char* preset : {"thesis", "fast", "robust", "dense", "fine"}) {
     for (const Implementation implementation :
          {Implementation::kNaive, Implementation::kSliding, Implementation::kSimd}) {
       Config config = config_for(preset, 2);
-      // The semi-global matcher's definition is no program for a robot.
-      const bool defines = config.matcher.method == Method::kSemiglobal;
-      if (defines && implementation != Implementation::kSimd) continue;
+      // The semi-global reference is for tests only.
+      const bool semiglobal = config.matcher.method == Method::kSemiglobal;
+      if (semiglobal && implementation != Implementation::kSimd) continue;
       config.matcher.implementation = implementation;
       config.matcher.disparities = 16;
       FakeBus bus(false);
@@ -240,7 +233,7 @@ TEST(Pipeline, AllocatesNothingPerFrame) {
   }
 }
 
-TEST(Pipeline, PublishesWhatTheCamerasSeeOnRequest) {
+TEST(Pipeline, RawImages_CameraImages) {
   Config config = config_for("fast", 1);
   config.lcm.raw_images = true;
   config.lcm.raw_images_per_second = 60;
@@ -256,7 +249,7 @@ TEST(Pipeline, PublishesWhatTheCamerasSeeOnRequest) {
   ASSERT_GE(right.size(), 3u);
   const SyntheticScene scene(kSize);
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(left[i].utime, right[i].utime) << "the two of a pair are told by their times";
+    EXPECT_EQ(left[i].utime, right[i].utime) << "images of a pair have equal times";
     for (const image_t* image : {&left[i], &right[i]}) {
       EXPECT_EQ(image->width, kSize.width);
       EXPECT_EQ(image->height, kSize.height);
@@ -273,19 +266,19 @@ TEST(Pipeline, PublishesWhatTheCamerasSeeOnRequest) {
         }
         found = same;
       }
-      EXPECT_TRUE(found) << "the image is one of the scene's";
+      EXPECT_TRUE(found) << "the image is not of the scene";
     }
   }
 }
 
-// What receivers know a type by. The two numbers are those of libbot's bot_core types.
-TEST(RawImages, HaveTheFingerprintOfBotCoreImages) {
+// Receivers identify a type by its fingerprint. The two numbers are those of libbot's bot_core types.
+TEST(RawImages, Fingerprint_BotCore) {
   const auto turned = [](std::uint64_t hash) { return hash << 1 | hash >> 63; };
   const std::uint64_t metadata = turned(0x4d25b1a682bbfdc7U);
   EXPECT_EQ(static_cast<std::uint64_t>(image_t::getHash()), turned(0x6fee6cb20472ff6aU + metadata));
 }
 
-TEST(Pipeline, RawImagesAreOffByDefaultAndAllocateNothing) {
+TEST(Pipeline, RawImages_OffByDefaultNoAllocation) {
   for (const bool wanted : {false, true}) {
     Config config = config_for("fast", 1);
     config.lcm.raw_images = wanted || config.lcm.raw_images;
@@ -305,7 +298,7 @@ TEST(Pipeline, RawImagesAreOffByDefaultAndAllocateNothing) {
   }
 }
 
-TEST(Pipeline, StopsAtAnyMoment) {
+TEST(Pipeline, StopAnytime_Ends) {
   for (int i = 0; i < 20; ++i) {
     const Config config = config_for("robust", 3);
     FakeBus bus(false);
@@ -315,7 +308,7 @@ TEST(Pipeline, StopsAtAnyMoment) {
   }
 }
 
-TEST(Pipeline, CountsWhatTheNetworkRefuses) {
+TEST(Pipeline, Refused_Counted) {
   const Config config = config_for("fast", 1);
   FakeBus bus(false);
   bus.refuse();
@@ -325,27 +318,24 @@ TEST(Pipeline, CountsWhatTheNetworkRefuses) {
   EXPECT_GE(stats.published.messages_refused, 2 * (120 + 6) / 7);
 }
 
-TEST(Pipeline, ARowBlockTooLargeForAMessageIsRefused) {
+TEST(Pipeline, RowsTooLargeForMessage_Refused) {
   Config config = config_for("fast", 1);
   config.lcm.rows_per_message = 300;
   FakeBus bus(false);
   try {
     Pipeline pipeline(config, open_stereo_source(config), bus);
-    FAIL() << "accepted";
+    FAIL() << "no exception";
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(),
-                 "found 300, but rows of 340 bytes are sent and a message holds 65243, "
-                 "so allowed "
-                 "are 1 to 191");
+    EXPECT_STREQ(error.what(), "found 300, allowed 1…191: a row has 340 bytes, a message holds 65243");
   }
 }
 
-TEST(Pipeline, WideRowsGetFewerToAMessage) {
+TEST(Pipeline, WideRows_FewerPerMessage) {
   WireFormat format;
   format.disparities = 64;
-  format.units_per_pixel = 16;  // so two bytes a value, and a bit
-  EXPECT_EQ(usual_rows_per_message(format, 640), 16);
-  EXPECT_EQ(usual_rows_per_message(format, 1920), 65243 / (2 * 1920 + 240));
+  format.units_per_pixel = 16;  // two bytes and a bit per value
+  EXPECT_EQ(default_rows_per_message(format, 640), 16);
+  EXPECT_EQ(default_rows_per_message(format, 1920), 65243 / (2 * 1920 + 240));
   Config config = config_for("fast", 1);
   config.lcm.rows_per_message.reset();
   EXPECT_NO_THROW(check_pipeline(config, {1920, 1080}));
@@ -353,7 +343,7 @@ TEST(Pipeline, WideRowsGetFewerToAMessage) {
   EXPECT_THROW(check_pipeline(config, {1920, 1080}), std::invalid_argument);
 }
 
-TEST(Pipeline, FramesTooFarApartInTimeNeverMakeAPair) {
+TEST(Pipeline, FramesTooFarApart_NoPair) {
   Config config = config_for("fast", 1);
   config.cameras.fps = 100;
   config.cameras.max_skew_ms = 1;
@@ -364,39 +354,6 @@ TEST(Pipeline, FramesTooFarApartInTimeNeverMakeAPair) {
   while (stats.left.frames < 10 || stats.right.frames < 10) stats = pipeline.take_stats();
   EXPECT_EQ(stats.pairing.pairs, 0);
   EXPECT_GT(stats.pairing.left_without_partner, 0);
-}
-
-TEST(StatusReporter, SaysStartingFirstAndThenStreaming) {
-  const Config config = config_for("fast", 1);
-  FakeBus bus(true);
-  Pipeline pipeline(config, open_stereo_source(config), bus);
-  StatusReporter reporter(pipeline, bus);
-  reporter.report();
-  bus.wait_for_more_frames(4);  // the first of them may have come before the report
-  reporter.report();
-  const std::vector<status_t> messages = bus.status_messages();
-  ASSERT_EQ(messages.size(), 2u);
-  EXPECT_EQ(messages[0].state, "starting");
-  EXPECT_EQ(messages[1].state, "streaming");
-  EXPECT_EQ(messages[1].reason, "");
-  EXPECT_GE(messages[1].frames_published, 2);
-  EXPECT_EQ(messages[1].left.device, "synthetic scene");
-  EXPECT_EQ(messages[1].left.decode_errors, 0);
-  EXPECT_GT(messages[1].rss_mb, 1);
-}
-
-TEST(JudgeState, NamesWhatIsMissing) {
-  const auto judge = [](bool left, bool right, bool pairs, bool published, bool refused, bool calibrated) {
-    return judge_state({left, right, pairs, published, refused}, calibrated);
-  };
-  EXPECT_EQ(judge(false, false, false, false, false, true).reason, "no frames from either camera");
-  EXPECT_EQ(judge(false, true, false, false, false, true).reason, "no frames from the left camera");
-  EXPECT_EQ(judge(true, false, false, false, false, true).name, "waiting_for_cameras");
-  EXPECT_EQ(judge(true, true, false, false, false, true).name, "degraded");
-  EXPECT_EQ(judge(true, true, true, false, false, true).name, "degraded");
-  EXPECT_EQ(judge(true, true, true, true, true, true).reason, "the network refused messages");
-  EXPECT_EQ(judge(true, true, true, true, false, true).name, "streaming");
-  EXPECT_EQ(judge(true, true, true, true, false, false).name, "uncalibrated");
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/pipeline/worker_scheduling.h"
 
 #include <gmock/gmock.h>
@@ -10,13 +11,13 @@
 namespace stereod {
 namespace {
 
-/// How the kernel runs each thread of a pool.
+/// The scheduling of each thread of a pool.
 struct Threads {
   std::string refused;
-  std::vector<int> policies, priorities, cpus;  // cpus: how many each may use
+  std::vector<int> policies, priorities, cpus;  // cpus: the number that a thread may use
 };
 
-/// Not this thread, which the other tests have.
+/// Applies the settings to a pool on a thread of its own, so that this thread keeps its scheduling.
 Threads scheduled(const SchedulingConfig& scheduling) {
   Threads threads;
   std::thread([&] {
@@ -41,7 +42,7 @@ Threads scheduled(const SchedulingConfig& scheduling) {
   return threads;
 }
 
-int a_cpu_of_ours() {
+int allowed_cpu() {
   cpu_set_t cpus;
   sched_getaffinity(0, sizeof cpus, &cpus);
   std::size_t cpu = 0;
@@ -49,30 +50,30 @@ int a_cpu_of_ours() {
   return static_cast<int>(cpu);
 }
 
-TEST(WorkerScheduling, UnlessAskedForNothingChanges) {
+TEST(WorkerScheduling, Default_Unchanged) {
   const Threads threads = scheduled({});
   EXPECT_EQ(threads.refused, "");
   EXPECT_THAT(threads.policies, testing::Each(SCHED_OTHER));
 }
 
-TEST(WorkerScheduling, EveryWorkerKeepsToTheCpus) {
+TEST(WorkerScheduling, Cpus_EveryWorker) {
   SchedulingConfig scheduling;
-  scheduling.cpus = {a_cpu_of_ours()};
+  scheduling.cpus = {allowed_cpu()};
   const Threads threads = scheduled(scheduling);
   EXPECT_EQ(threads.refused, "");
   EXPECT_THAT(threads.cpus, testing::ElementsAre(1, 1, 1));
 }
 
-TEST(WorkerScheduling, CpusThatAreNotThereAreSaid) {
+TEST(WorkerScheduling, MissingCpus_Reported) {
   SchedulingConfig scheduling;
   scheduling.cpus = {1023};
-  EXPECT_EQ(scheduled(scheduling).refused,
-            "the system refuses the workers the CPUs of scheduling.cpus (Invalid argument); there must be "
-            "one of them, "
-            "and the unit must permit it (SystemCallFilter)");
+  EXPECT_EQ(
+      scheduled(scheduling).refused,
+      "the system refused the CPUs in scheduling.cpus for the matching threads (Invalid argument): name CPUs "
+      "that this machine has and allow it in the unit (SystemCallFilter)");
 }
 
-TEST(WorkerScheduling, EveryWorkerHasThePriorityOrItIsSaid) {
+TEST(WorkerScheduling, Priority_SetOrReported) {
   SchedulingConfig scheduling;
   scheduling.priority = 5;
   const Threads threads = scheduled(scheduling);
@@ -80,10 +81,10 @@ TEST(WorkerScheduling, EveryWorkerHasThePriorityOrItIsSaid) {
     EXPECT_THAT(threads.policies, testing::Each(SCHED_FIFO));
     EXPECT_THAT(threads.priorities, testing::ElementsAre(5, 5, 5));
   } else {
-    EXPECT_EQ(threads.refused,
-              "the system refuses the workers real-time priority 5 (Operation not permitted); the unit must "
-              "permit it "
-              "(LimitRTPRIO, RestrictRealtime, SystemCallFilter)");
+    EXPECT_EQ(
+        threads.refused,
+        "the system refused real-time priority 5 for the matching threads (Operation not permitted): allow "
+        "it in the unit (LimitRTPRIO, RestrictRealtime, SystemCallFilter)");
     EXPECT_THAT(threads.policies, testing::Each(SCHED_OTHER));
   }
 }

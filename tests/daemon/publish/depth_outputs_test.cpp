@@ -1,4 +1,5 @@
-// What is published of depth: rows in millimeters, and points.
+// SPDX-License-Identifier: BSD-3-Clause
+// The depth outputs: rows in millimeters, and points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ MatcherOptions options() {
   return options;
 }
 
-/// Every disparity somewhere, and pixels that were not measured: missing ones and filled ones.
+/// Returns an image with every disparity, and with missing and filled pixels.
 DisparityImage all_disparities() {
   DisparityImage image(kSize);
   int value = 0;
@@ -47,18 +48,24 @@ DisparityImage all_disparities() {
   return image;
 }
 
-FrameTiming facts_of(std::int64_t frame) {
+FrameTiming timing_of(std::int64_t frame) {
   FrameTiming timing;
   timing.frame = frame;
   timing.utime = 1'700'000'000'000'000 + frame;
   return timing;
 }
 
-/// What has to be published for a pixel.
+/// Returns the value to be published for a pixel.
 int depth_mm(const Calibration& calibration, int units) {
   if (units < 0) return 0;
   const double mm = 1000 * stereod::depth_m(calibration, units / 16.0);
   return mm > 65534.5 ? 65535 : static_cast<int>(std::lround(mm));
+}
+
+/// Passes published rows to an output that reads no other rows.
+void take_rows(RowConsumer& consumer, const FrameTiming& timing, DisparityView disparity,
+               RowRange published) {
+  consumer.take_rows({timing, disparity, published, {}});
 }
 
 int value_of(const depth_rows_t& rows, int u, int v) {
@@ -66,17 +73,18 @@ int value_of(const depth_rows_t& rows, int u, int v) {
   return rows.data[at] | rows.data[at + 1] << 8;
 }
 
-TEST(DepthPublisher, SendsMillimetresOfWhatWasMeasured) {
+TEST(DepthPublisher, MeasuredPixels_Millimeters) {
   const Calibration calibration = SyntheticScene(kSize).calibration();
   const DisparityImage image = all_disparities();
   const PublishedPixels pixels({10, 20, 140, 90, 3, 2}, kSize);
   KeepingBus<depth_rows_t> bus("T_DEPTH");
   DepthPublisher publisher(bus, "T", calibration, options(), pixels, 16);
-  EXPECT_TRUE(publisher.send_rows(facts_of(5), image.view(), {16, 32}));
+  take_rows(publisher, timing_of(5), image.view(), {16, 32});
+  EXPECT_EQ(publisher.refused(), 0);
   ASSERT_EQ(bus.messages().size(), 1U);
   const depth_rows_t rows = bus.messages()[0];
   EXPECT_EQ(rows.frame, 5);
-  EXPECT_EQ(rows.utime, facts_of(5).utime);
+  EXPECT_EQ(rows.utime, timing_of(5).utime);
   EXPECT_EQ(rows.width, 47);
   EXPECT_EQ(rows.height, 45);
   EXPECT_EQ(rows.left, 10);
@@ -97,36 +105,38 @@ TEST(DepthPublisher, SendsMillimetresOfWhatWasMeasured) {
   EXPECT_GT(known, 400);
 }
 
-TEST(DepthPublisher, SaysSoFarOrFartherAtTheHorizon) {
+TEST(DepthPublisher, Horizon_Farthest) {
   Calibration calibration = SyntheticScene(kSize).calibration();
   calibration.right.projection.cx = calibration.left.projection.cx;
   DisparityImage image(kSize);
   image.at(1, 0) = 16 * 30;
   KeepingBus<depth_rows_t> bus("T_DEPTH");
   DepthPublisher publisher(bus, "T", calibration, options(), PublishedPixels(kSize), 1);
-  publisher.send_rows(facts_of(0), image.view(), {0, 1});
+  take_rows(publisher, timing_of(0), image.view(), {0, 1});
   EXPECT_EQ(value_of(bus.messages()[0], 0, 0), DepthPublisher::kFarthest);
   EXPECT_LT(value_of(bus.messages()[0], 1, 0), 10'000);
 }
 
-TEST(CloudPublisher, SendsAPointForEverySoManyThMeasuredPixel) {
+TEST(CloudPublisher, Decimated_OnePointPerMeasuredPixel) {
   const Calibration calibration = SyntheticScene(kSize).calibration();
   const DisparityImage image = all_disparities();
   const PublishedPixels pixels({20, 8, 100, 100, 2, 2}, kSize);
   KeepingBus<pointcloud_t> bus("T_CLOUD");
   CloudPublisher publisher(bus, "T", calibration, options(), pixels, 5);
   const auto publish = [&](std::int64_t frame) {
-    for (int y = pixels.rows().first; y < pixels.rows().end; ++y) publisher.add_row(y, image.row(y));
-    const std::size_t bytes = publisher.bytes();
-    EXPECT_TRUE(publisher.finish(facts_of(frame)));
+    const FrameTiming timing = timing_of(frame);
+    publisher.take_rows({timing, image.view(), {0, pixels.height}, pixels.rows()});
+    const std::size_t bytes = publisher.bytes_at_end();
+    publisher.end_frame(timing);
+    EXPECT_EQ(publisher.refused(), 0);
     EXPECT_EQ(static_cast<std::size_t>(bus.messages().back().getEncodedSize()), bytes);
   };
   publish(1);
-  publish(2);  // begins with no points
+  publish(2);  // starts without points
   const RectifiedProjection& p = calibration.left.projection;
   for (std::int64_t frame = 1; frame <= 2; ++frame) {
     const pointcloud_t cloud = bus.messages()[static_cast<std::size_t>(frame - 1)];
-    EXPECT_EQ(cloud.utime, facts_of(frame).utime);
+    EXPECT_EQ(cloud.utime, timing_of(frame).utime);
     EXPECT_EQ(cloud.seq, frame);
     EXPECT_EQ(cloud.frame_id, "stereo_left");
     EXPECT_EQ(cloud.n_channels, 0);
@@ -148,7 +158,7 @@ TEST(CloudPublisher, SendsAPointForEverySoManyThMeasuredPixel) {
   }
 }
 
-TEST(DepthOutputs, AllocateNothing) {
+TEST(DepthOutputs, AfterConstruction_NoAllocation) {
   if (!AllocationCounter::supported()) GTEST_SKIP() << "this build does not count allocations";
   class Nowhere final : public MessageBus {
     bool publish(const char*, const void*, std::size_t) noexcept override { return false; }
@@ -159,14 +169,17 @@ TEST(DepthOutputs, AllocateNothing) {
   CloudPublisher cloud(bus, "T", calibration, options(), PublishedPixels(kSize), 1);
   const AllocationCounter counter;
   for (int i = 0; i < 3; ++i) {
-    EXPECT_FALSE(depth.send_rows(facts_of(i), image.view(), {16, 32})) << "a refusal is said";
-    for (int y = 0; y < kSize.height; ++y) cloud.add_row(y, image.row(y));
-    EXPECT_FALSE(cloud.finish(facts_of(i)));
+    const FrameTiming timing = timing_of(i);
+    take_rows(depth, timing, image.view(), {16, 32});
+    EXPECT_EQ(depth.refused(), i + 1);
+    cloud.take_rows({timing, image.view(), {0, kSize.height}, {0, kSize.height}});
+    cloud.end_frame(timing);
+    EXPECT_EQ(cloud.refused(), i + 1);
   }
   EXPECT_EQ(counter.count(), 0U);
 }
 
-/// Counts the messages of every channel, and refuses them if told to.
+/// Counts the messages of every channel; refuses them if `refuse` is set.
 class CountingBus final : public MessageBus {
  public:
   bool publish(const char* channel, const void*, std::size_t) noexcept override {
@@ -199,7 +212,7 @@ Config pipeline_config(bool depth, bool cloud) {
   return config;
 }
 
-TEST(DepthOutputs, ComeWithEveryFrameIfAskedForAndOnlyThen) {
+TEST(DepthOutputs, Enabled_EveryFrame) {
   for (const bool wanted : {false, true}) {
     CountingBus bus;
     Pipeline pipeline(pipeline_config(wanted, wanted), open_stereo_source(pipeline_config(wanted, wanted)),
@@ -215,7 +228,7 @@ TEST(DepthOutputs, ComeWithEveryFrameIfAskedForAndOnlyThen) {
   }
 }
 
-TEST(DepthOutputs, RefusedByTheNetworkAreCounted) {
+TEST(DepthOutputs, Refused_Counted) {
   CountingBus bus;
   bus.refuse = true;
   Pipeline pipeline(pipeline_config(true, true), open_stereo_source(pipeline_config(true, true)), bus);
@@ -223,15 +236,15 @@ TEST(DepthOutputs, RefusedByTheNetworkAreCounted) {
   pipeline.stop();
   const int sent =
       bus.count("T_FRAME") + bus.count("T_DISPARITY") + bus.count("T_DEPTH") + bus.count("T_CLOUD");
-  // Those of a frame that was stopped on its way are not in the stats.
+  // The stats do not include a frame that was interrupted by stop().
   EXPECT_GE(pipeline.take_stats().published.messages_refused, sent - (1 + 8 + 8 + 1));
   EXPECT_GE(pipeline.take_stats().published.messages_refused, 2 * (1 + 8 + 8 + 1));
 }
 
-TEST(DepthOutputs, NeedRoomForTheirRowsInAMessage) {
+TEST(DepthOutputs, RowsTooLarge_Refused) {
   Config config = pipeline_config(true, false);
   config.matcher = *matcher_preset("fast");
-  config.matcher.subpixel = false;  // a byte for a disparity, two for a depth
+  config.matcher.subpixel = false;  // one byte per disparity, two per depth
   config.lcm.rows_per_message = 250;
   EXPECT_THROW(check_pipeline(config, kSize), std::invalid_argument);
   config.publish.depth = false;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/publish/left_publisher.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr Size kSize{160, 120};
 
-/// Runs the pipeline until so many left images have come.
+/// Runs the pipeline until @p images left images were published.
 void run(KeepingBus<image_t>& bus, bool enabled, bool jpeg, std::size_t images) {
   Config config;
   config.cameras.source = SourceKind::kSynthetic;
@@ -36,7 +37,7 @@ void run(KeepingBus<image_t>& bus, bool enabled, bool jpeg, std::size_t images) 
   }
 }
 
-/// The rectified left image of the frame that a image belongs to; the frames' numbers are the scene's.
+/// Returns the rectified left image of a frame; frames are numbered as in the scene.
 GrayImage rectified(const SyntheticScene& scene, std::int64_t frame) {
   const GrayImage raw = scene.render_left(static_cast<int>(frame % scene.frames()));
   GrayImage left(kSize);
@@ -47,7 +48,7 @@ GrayImage rectified(const SyntheticScene& scene, std::int64_t frame) {
 
 class LeftImages : public testing::TestWithParam<bool> {};
 
-TEST_P(LeftImages, AreTheRectifiedOnesOfTheirFrames) {
+TEST_P(LeftImages, Enabled_RectifiedImagesOfTheirFrames) {
   const bool is_jpeg = GetParam();
   KeepingBus<image_t> bus("T_LEFT");
   run(bus, true, is_jpeg, 4);
@@ -80,7 +81,7 @@ TEST_P(LeftImages, AreTheRectifiedOnesOfTheirFrames) {
 
 INSTANTIATE_TEST_SUITE_P(LeftPublisher, LeftImages, testing::Bool());
 
-TEST(LeftPublisher, PublishesNothingUnlessAsked) {
+TEST(LeftPublisher, Disabled_Silent) {
   KeepingBus<image_t> bus("T_LEFT");
   run(bus, false, true, 0);
   EXPECT_TRUE(bus.messages().empty());

@@ -1,4 +1,5 @@
-// A region, or every so many-th column and row, of what is matched: the pixels are those of the whole image.
+// SPDX-License-Identifier: BSD-3-Clause
+// Publishing a region or a decimated image gives the pixels of the whole image.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -32,14 +33,14 @@ Config config_for(const std::string& preset, int workers) {
   config.matcher = *matcher_preset(preset);
   config.matcher.disparities = 40;
   config.workers = workers;
-  config.rectify.alpha = 1;  // with margins that nothing is known of
+  config.rectify.alpha = 1;  // leaves margins without a source
   config.lcm.prefix = "T";
   config.lcm.rows_per_message = 7;
   config.lcm.pacing = 0;
   return config;
 }
 
-/// The first frames that a pipeline publishes, put together by the client library.
+/// Returns the first frames that a pipeline publishes, assembled by the client library.
 std::vector<StereoFrame> published(const Config& config) {
   KeepingBus<disparity_rows_t> bus("T_DISPARITY");
   {
@@ -63,7 +64,7 @@ std::vector<StereoFrame> published(const Config& config) {
 
 class PublishedRegion : public testing::TestWithParam<std::tuple<const char*, int, PublishConfig>> {};
 
-TEST_P(PublishedRegion, HasThePixelsOfTheWholeImage) {
+TEST_P(PublishedRegion, AnyRegion_PixelsOfTheWholeImage) {
   const auto& [preset, workers, publish] = GetParam();
   Config config = config_for(preset, workers);
   const int speckle_size = std::exchange(config.matcher.speckle_size, 0);
@@ -110,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      PublishConfig{100, 0, 0, 50, 3, 1}, PublishConfig{5, 113, 29, 0, 1, 2},
                                      PublishConfig{83, 47, 1, 1, 1, 1})));
 
-TEST(PublishedPixels, RefusesARegionOutsideOfThePictures) {
+TEST(PublishedPixels, RegionOutsideImage_Refused) {
   const auto fits = [](int left, int top, int width, int height) {
     return !region_problem({left, top, width, height, 1, 1}, {640, 480});
   };
@@ -122,16 +123,16 @@ TEST(PublishedPixels, RefusesARegionOutsideOfThePictures) {
   EXPECT_FALSE(fits(0, 480, 0, 0));
   EXPECT_FALSE(fits(1, 0, 640, 0));
   EXPECT_FALSE(fits(0, 400, 0, 81));
-  EXPECT_EQ(*region_problem({600, 0, 100, 0, 1, 1}, {640, 480}),
-            "found 100×0 pixels from column 600, row 0 on (0: up to the edge), but the images are 640×480; "
-            "allowed is what lies in them");
+  EXPECT_EQ(
+      *region_problem({600, 0, 100, 0, 1, 1}, {640, 480}),
+      "found 100×0 px at column 600, row 0 (0: up to the edge), allowed: a region inside the image of 640×480 px");
   Config config = config_for("fast", 1);
   config.publish.top = kSize.height;
   KeepingBus<disparity_rows_t> bus("T_DISPARITY");
   EXPECT_THROW(Pipeline(config, open_stereo_source(config), bus), std::invalid_argument);
 }
 
-TEST(PublishedPixels, AreMatchedWithoutTheRestOfTheirRows) {
+TEST(PublishedPixels, BlockMatcher_FewerColumns) {
   MatcherOptions options = *matcher_preset("fast");
   options.disparities = 64;
   const ColumnRange matched = columns_to_match(options, {640, 480}, {400, 420});
@@ -143,8 +144,8 @@ TEST(PublishedPixels, AreMatchedWithoutTheRestOfTheirRows) {
   EXPECT_EQ(all.end, 640);
 }
 
-// The left image is whole, whatever is matched.
-TEST(RegionOutputs, LeavesTheLeftImageWhole) {
+// A region of the disparities does not cut the left image.
+TEST(RegionOutputs, LeftImage_Whole) {
   const auto left_images = [](const PublishConfig& publish) {
     Config config = config_for("robust", 2);
     config.publish = publish;
@@ -161,7 +162,7 @@ TEST(RegionOutputs, LeavesTheLeftImageWhole) {
   EXPECT_TRUE(part.data == whole.data) << "both are of the first frame";
 }
 
-TEST(RegionOutputs, AllocatesNothingPerFrame) {
+TEST(RegionOutputs, PerFrame_NoAllocation) {
   if (!AllocationCounter::supported()) GTEST_SKIP() << "allocations cannot be counted in this build";
   Config config = config_for("robust", 2);
   config.publish = {40, 20, 100, 60, 2, 2};

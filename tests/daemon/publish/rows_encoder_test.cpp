@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/publish/rows_encoder.h"
 
 #include <gtest/gtest.h>
@@ -12,12 +13,12 @@ namespace {
 
 constexpr Size kSize{21, 6};
 
-/// Measured, filled and missing pixels in random order; `largest` is the largest disparity.
-DisparityImage random_disparity(Random& random, int largest) {
+/// Returns measured, filled and missing pixels in random order, with disparities up to @p maximum.
+DisparityImage random_disparity(Random& random, int maximum) {
   DisparityImage image(kSize);
   for (int y = 0; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
-      const auto value = static_cast<std::int16_t>(random.between(0, largest));
+      const auto value = static_cast<std::int16_t>(random.between(0, maximum));
       image.at(x, y) = random.one_in(3) ? kInvalidDisparity : random.one_in(2) ? as_filled(value) : value;
     }
   }
@@ -36,14 +37,14 @@ disparity_rows_t message_for(int bytes_per_value) {
   return message;
 }
 
-// What the client library reads is what the matcher said.
-TEST(RowsEncoder, SendsMeasuredFilledAndMissingPixels) {
+// The client library decodes the values of the matcher.
+TEST(RowsEncoder, MeasuredFilledMissing_DecodedEqual) {
   Random random(11);
   for (const int bytes_per_value : {1, 2}) {
-    const int largest = bytes_per_value == 1 ? 254 : 4095;
-    DisparityImage image = random_disparity(random, largest);
+    const int maximum = bytes_per_value == 1 ? 254 : 4095;
+    DisparityImage image = random_disparity(random, maximum);
     image.at(0, 2) = as_filled(0);
-    image.at(1, 2) = as_filled(static_cast<std::int16_t>(largest));
+    image.at(1, 2) = as_filled(static_cast<std::int16_t>(maximum));
     disparity_rows_t message = message_for(bytes_per_value);
     std::int64_t measured = 0;
     EXPECT_GT(measured = encode_rows(image.view(), {2, 5}, message).measured, 0);
@@ -61,11 +62,11 @@ TEST(RowsEncoder, SendsMeasuredFilledAndMissingPixels) {
         measured -= value >= 0 ? 1 : 0;
       }
     }
-    EXPECT_EQ(measured, 0) << "only what was measured is counted";
+    EXPECT_EQ(measured, 0) << "only measured pixels are counted";
   }
 }
 
-TEST(RowsEncoder, SendsNoBitsWhereNothingIsFilled) {
+TEST(RowsEncoder, NothingFilled_NoBits) {
   DisparityImage image(kSize);
   image.at(3, 1) = kInvalidDisparity;
   image.at(3, 4) = as_filled(7);
@@ -77,7 +78,7 @@ TEST(RowsEncoder, SendsNoBitsWhereNothingIsFilled) {
   EXPECT_TRUE(message.filled.empty());
 }
 
-TEST(RowsEncoder, TakesEverySoManyThColumnAndRowFromACorner) {
+TEST(RowsEncoder, DecimatedRegion_DecodedEqual) {
   Random random(12);
   DisparityImage image(48, 20);
   for (int y = 0; y < image.height(); ++y) {
@@ -107,7 +108,7 @@ TEST(RowsEncoder, TakesEverySoManyThColumnAndRowFromACorner) {
   }
 }
 
-TEST(RowsEncoder, AllocatesNothingOnceThereIsRoom) {
+TEST(RowsEncoder, Reserved_NoAllocation) {
   DisparityImage image(kSize);
   image.at(3, 4) = as_filled(7);
   disparity_rows_t message = message_for(2);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/publish/scan_publisher.h"
 
 #include <gtest/gtest.h>
@@ -25,15 +26,18 @@ ScanConfig given_ground() {
   return config;
 }
 
-frame_t publish(ScanPublisher& publisher, const DisparityImage& image, std::int64_t utime) {
-  frame_t frame{};
-  frame.utime = utime;
-  for (int y = 0; y < image.height(); ++y) publisher.add_row(y, image.row(y));
-  EXPECT_TRUE(publisher.finish(frame));
-  return frame;
+ScanSummary publish(ScanPublisher& publisher, const DisparityImage& image, std::int64_t utime) {
+  FrameTiming timing;
+  timing.utime = utime;
+  const RowRange all{0, image.height()};
+  publisher.take_rows({timing, image.view(), all, all});
+  const std::optional<ScanSummary> summary = publisher.end_rows(timing);
+  EXPECT_TRUE(summary.has_value());
+  EXPECT_EQ(publisher.refused(), 0);
+  return summary.value_or(ScanSummary{});
 }
 
-TEST(ScanPublisher, PublishesWhatTheScanFinds) {
+TEST(ScanPublisher, KnownGround_PublishesScan) {
   const ScanGeometry camera = floor_camera();
   const DisparityImage image = floor_disparity(camera, kGround, kPosts);
   const ScanConfig config = given_ground();
@@ -41,9 +45,10 @@ TEST(ScanPublisher, PublishesWhatTheScanFinds) {
   const ScanResult expected = scan_of(scan, image);
   KeepingBus<planar_lidar_t> bus("T_SCAN");
   ScanPublisher publisher(bus, "T", config, camera);
-  const frame_t frame = publish(publisher, image, 77);
-  EXPECT_NEAR(frame.nearest_m, 0.4, 0.02);
-  EXPECT_EQ(frame.stop, 1);
+  const ScanSummary summary = publish(publisher, image, 77);
+  EXPECT_NEAR(summary.nearest_m, 0.4, 0.02);
+  EXPECT_TRUE(summary.stop);
+  EXPECT_EQ(summary.stop_reason, StopReason::kObstacle);
   ASSERT_EQ(bus.messages().size(), 1U);
   const planar_lidar_t message = bus.messages()[0];
   EXPECT_EQ(message.utime, 77);
@@ -51,10 +56,10 @@ TEST(ScanPublisher, PublishesWhatTheScanFinds) {
   EXPECT_EQ(message.intensities, expected.support);
   EXPECT_EQ(message.rad0, expected.first_rad);
   EXPECT_EQ(message.radstep, expected.step_rad);
-  EXPECT_EQ(publish(publisher, floor_disparity(camera, kGround, {}), 78).stop, 0);
+  EXPECT_FALSE(publish(publisher, floor_disparity(camera, kGround, {}), 78).stop);
 }
 
-TEST(ScanPublisher, SaysStopUntilItHasFoundTheGroundAndThenFollowsIt) {
+TEST(ScanPublisher, EstimatedGround_StopsUntilKnown) {
   const ScanGeometry camera = floor_camera();
   const DisparityImage image = floor_disparity(camera, kGround, {});
   DisparityImage nothing(camera.size);
@@ -63,16 +68,17 @@ TEST(ScanPublisher, SaysStopUntilItHasFoundTheGroundAndThenFollowsIt) {
   ScanPublisher publisher(bus, "T", ScanConfig(), camera);
   for (const DisparityImage* seen :
        {static_cast<const DisparityImage*>(&nothing), &image}) {  // the first floor is only fitted to
-    const frame_t frame = publish(publisher, *seen, 0);
-    EXPECT_EQ(frame.stop, 1);
-    EXPECT_EQ(frame.nearest_m, 0.0F);
+    const ScanSummary summary = publish(publisher, *seen, 0);
+    EXPECT_TRUE(summary.stop);
+    EXPECT_EQ(summary.stop_reason, StopReason::kGroundUnknown);
+    EXPECT_EQ(summary.nearest_m, 0.0F);
     EXPECT_TRUE(bus.messages().empty());
   }
-  const frame_t frame = publish(publisher, image, 0);
-  EXPECT_EQ(frame.stop, 0);
-  EXPECT_EQ(frame.nearest_m, 3.0F);
+  const ScanSummary summary = publish(publisher, image, 0);
+  EXPECT_FALSE(summary.stop);
+  EXPECT_EQ(summary.nearest_m, 3.0F);
   EXPECT_EQ(bus.messages().size(), 1U);
-  // The camera is tilted by 0.02 rad: what looks like a rising floor is the floor again after a while.
+  // The camera is tilted by 0.02 rad: the floor seems to rise until the estimate has followed.
   const DisparityImage tilted = floor_disparity(camera, {0.3, 0.12}, {});
   for (int i = 0; i < 30 * 20; ++i) publish(publisher, tilted, 0);
   ScanConfig config = given_ground();
@@ -85,7 +91,7 @@ TEST(ScanPublisher, SaysStopUntilItHasFoundTheGroundAndThenFollowsIt) {
   for (std::size_t i = 0; i < want.ranges.size(); ++i) EXPECT_NEAR(got.ranges[i], want.ranges[i], 0.03);
 }
 
-TEST(ScanPublisher, AllocatesNothing) {
+TEST(ScanPublisher, PerFrame_NoAllocation) {
   class Nowhere final : public MessageBus {
     bool publish(const char*, const void*, std::size_t) noexcept override { return true; }
   };
@@ -94,16 +100,17 @@ TEST(ScanPublisher, AllocatesNothing) {
   const DisparityImage image = floor_disparity(camera, kGround, kPosts);
   Nowhere bus;
   ScanPublisher publisher(bus, "T", ScanConfig(), camera);
-  frame_t frame{};
+  const FrameTiming timing;
+  const RowRange all{0, image.height()};
   const AllocationCounter counter;
   for (int i = 0; i < 3; ++i) {
-    for (int y = 0; y < image.height(); ++y) publisher.add_row(y, image.row(y));
-    publisher.finish(frame);
+    publisher.take_rows({timing, image.view(), all, all});
+    publisher.end_rows(timing);
   }
   EXPECT_EQ(counter.count(), 0U);
 }
 
-TEST(ScanPublisher, IsShownEveryFrameByThePipeline) {
+TEST(ScanPublisher, InPipeline_EveryFrame) {
   Config config;
   config.cameras.source = SourceKind::kSynthetic;
   config.cameras.fps = 0;
@@ -113,7 +120,7 @@ TEST(ScanPublisher, IsShownEveryFrameByThePipeline) {
   config.lcm.pacing = 0;
   config.scan.enabled = true;
   config.scan.fit_ground = false;
-  config.scan.ground = {0.45, 0};  // the scene's
+  config.scan.ground = {0.45, 0};  // of the scene
   config.scan.options.stop_distance_m = 0.8;
   config.scan.options.stop_width_m = 0.8;
   KeepingBus<planar_lidar_t> bus("T_SCAN");
@@ -127,7 +134,7 @@ TEST(ScanPublisher, IsShownEveryFrameByThePipeline) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     EXPECT_EQ(scans[i].utime, frames[i].utime);
     EXPECT_EQ(scans[i].nranges, config.scan.options.rays);
-    // A box moves to and fro in front of the camera, 0.6 m away.
+    // A box moves sideways in front of the camera, 0.6 m away.
     EXPECT_NEAR(frames[i].nearest_m, 0.6, 0.1);
     EXPECT_EQ(frames[i].stop, 1);
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The obstacle scan on the rendered scene: rectified, matched and scanned as the daemon does.
 #include <gtest/gtest.h>
 
@@ -16,19 +17,19 @@
 namespace stereod {
 namespace {
 
-constexpr double kFloorBelowCamera = 0.45;  // the scene's, m
+constexpr double kFloorBelowCamera = 0.45;  // in the scene [m]
 constexpr GroundPlane kGround{kFloorBelowCamera, 0};
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// What of the ground truth a scan has to find, by going through every pixel's point in space; for each
-/// direction, in meters, infinite if there is nothing.
+/// What a scan must find for each direction, from the ground truth of every pixel [m]; infinite: nothing.
 struct Truth {
-  std::vector<double> sure;     // an object so large there, and beside it, that it cannot be missed
+  std::vector<double>
+      sure;  // an object large enough, also in the neighboring directions, that it must be found
   std::vector<double> nearest;  // anything at all
 };
 
-/// The nearest distance at which `count` of the sorted distances lie within one pixel of disparity.
+/// Returns the nearest distance at which @p count of the sorted distances lie within one pixel of disparity.
 double sure_distance(const Calibration& calibration, const std::vector<double>& sorted, int count) {
   for (std::size_t first = 0, end = 0; first < sorted.size(); ++first) {
     while (end < sorted.size() &&
@@ -65,8 +66,7 @@ Truth truth_of(const SyntheticScene& scene, int frame, const ScanOptions& option
     truth.nearest.push_back(all.empty() ? kNever : all.front());
     truth.sure.push_back(sure_distance(scene.calibration(), all, 3 * options.min_support));
   }
-  // The matcher's window blurs the edges of an object; what it shows in its neighbors as well is inside of
-  // it.
+  // The window of the matcher blurs the edges of an object, so only directions inside of it count as sure.
   const std::vector<double> sure = truth.sure;
   for (std::size_t i = 0; i < sure.size(); ++i) {
     const auto same = [&](std::size_t other) {
@@ -78,12 +78,12 @@ Truth truth_of(const SyntheticScene& scene, int frame, const ScanOptions& option
   return truth;
 }
 
-TEST(ScanOfTheScene, FindsEveryObjectWithinTheDisparitysResolution) {
+TEST(ScanOfScene, Boxes_FoundWithinOnePixel) {
   const SyntheticScene scene;
   SceneMatcher matcher(scene);
   const ScanGeometry camera = matcher.camera();
   ScanOptions options;
-  options.max_range_m = 4;  // before the wall, which stands at 4.5 m
+  options.max_range_m = 4;  // in front of the wall at 4.5 m
   ObstacleScan scan(options, camera, kGround);
   int found = 0, nearer = 0;
   for (int frame = 0; frame < scene.frames(); ++frame) {
@@ -97,12 +97,12 @@ TEST(ScanOfTheScene, FindsEveryObjectWithinTheDisparitysResolution) {
         return disparity_at(scene.calibration(), forward) - disparity_at(scene.calibration(), z);
       };
       SCOPED_TRACE("frame " + std::to_string(frame) + ", direction " + std::to_string(i));
-      if (std::isfinite(truth.sure[i])) {  // as much of an object as cannot be missed
+      if (std::isfinite(truth.sure[i])) {  // must be found
         ASSERT_GT(result.support[i], 0);
         EXPECT_GE(pixels_from(truth.sure[i]), -1);
         ++found;
       }
-      if (result.support[i] > 0) {  // and nothing is nearer than anything there is
+      if (result.support[i] > 0) {  // nothing is reported nearer than the nearest object
         const double near =
             std::min({truth.nearest[i], i > 0 ? truth.nearest[i - 1] : truth.nearest[i],
                       i + 1 < truth.nearest.size() ? truth.nearest[i + 1] : truth.nearest[i]});
@@ -116,7 +116,7 @@ TEST(ScanOfTheScene, FindsEveryObjectWithinTheDisparitysResolution) {
   EXPECT_GE(nearer, found);
 }
 
-TEST(ScanOfTheScene, FindsNoGhostOnTheEmptyFloorInAThousandFrames) {
+TEST(ScanOfScene, EmptyFloor_NoObstacle) {
   constexpr int kFrames = kSanitized ? 100 : 1000;
   const SyntheticScene scene({640, 480}, kFrames, 0.06, false);
   SceneMatcher matcher(scene);
@@ -143,7 +143,7 @@ TEST(ScanOfTheScene, FindsNoGhostOnTheEmptyFloorInAThousandFrames) {
   EXPECT_EQ(ghosts, 0);
 }
 
-TEST(ScanOfTheScene, FindsTheGroundAmongTheBoxes) {
+TEST(ScanOfScene, Boxes_GroundFound) {
   const SyntheticScene scene;
   SceneMatcher matcher(scene);
   GroundFit fit(matcher.camera());
