@@ -33,7 +33,8 @@ bool same_cameras(CamerasConfig a, const CamerasConfig& b) {
 std::string describe(const Pipeline& pipeline) {
   const Size size = pipeline.rig().left->frame_size();
   const Config& config = pipeline.config();
-  return fmt::format("{} {}, matcher {}, channels {}_*", name_of(config.cameras.source), to_string(size), pipeline.matcher_description(), config.lcm.prefix);
+  return fmt::format("{} {}, matcher {}, channels {}_*", name_of(config.cameras.source), to_string(size),
+                     pipeline.matcher_description(), config.lcm.prefix);
 }
 
 }  // namespace

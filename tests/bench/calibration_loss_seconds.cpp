@@ -81,8 +81,8 @@ void measure(const fs::path& scenes, const fs::path& calibration, int rows, int 
       error_before = status.epipolar_error_px;
       points_before = static_cast<double>(status.epipolar_points);
       cost = status.epipolar_probe_percent;
-      false_alarm = false_alarm || status.reason.find("knocked") != std::string::npos;
-    } else if (status.reason.find("knocked") != std::string::npos) {
+      false_alarm = false_alarm || status.reason.find("the cameras have moved") != std::string::npos;
+    } else if (status.reason.find("the cameras have moved") != std::string::npos) {
       noticed_s = static_cast<double>(status.left.frames) / fps - kBefore_s;
     }
   }

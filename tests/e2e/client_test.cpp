@@ -10,6 +10,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "daemon/client/stereod_client.h"
 #include "daemon/config/calibration_file.h"
 #include "daemon/lcm/bus.h"
+#include "daemon/lcm/message_decoder.h"
 #include "stereod/depth_rows_t.hpp"
 #include "stereod/pointcloud_t.hpp"
 #include "tests/support/network.h"
@@ -106,8 +108,8 @@ void listen(lcm_t* lcm, const char* channel, std::vector<Message>& received) {
       lcm, channel,
       [](const lcm_recv_buf_t* in, const char*, void* to) {
         Message message{};
-        const auto size = static_cast<int>(in->data_size);
-        if (message.decode(in->data, 0, size) == size) {
+        const std::span bytes(static_cast<const std::byte*>(in->data), in->data_size);
+        if (decode_message(bytes, message)) {
           static_cast<std::vector<Message>*>(to)->push_back(std::move(message));
         }
       },

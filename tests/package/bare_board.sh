@@ -93,13 +93,13 @@ base machine ca-certificates,openssh-server,sudo,systemd-sysv,dbus
 new_board
 follow at_home "1. From the developer's machine" 1
 shows 'Active: active \(running\)'
-shows 'Status: "Waiting for cameras: '
+shows 'Status: "waiting for cameras: '
 shows '^deploy: done'
 follow at_board "2. On the board" 1
 shows '^There is no camera'
 streams
 follow at_board "3. Rows" 1
-shows 'Status: "Streaming: [0-9.]+ frames a second'
+shows 'Status: "streaming: [0-9.]+ fps'
 shows '^rows +[1-9][0-9]* +[1-9]'
 shows '^state +streaming'
 

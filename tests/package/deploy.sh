@@ -67,7 +67,7 @@ boot
 property() { in_booted systemctl show --property "$1" --value stereod.service; }
 echo '# my own line' >>"$root/etc/stereod/stereod.yaml"
 deploy pilot 22 in_its_network || { cat "$work/out"; fail "deploy.sh ended with an error"; }
-for sentence in 'Active: active \(running\)' 'Status: "Waiting for cameras: ' 'state: waiting' 'but not after the next start of' 'deploy: done'; do
+for sentence in 'Active: active \(running\)' 'Status: "waiting for cameras: ' 'state: waiting' 'but not after the next start of' 'deploy: done'; do
   grep -qE "$sentence" "$work/out" || { cat "$work/out"; fail "it should show '$sentence'"; }
 done
 say "  $(grep -o 'Status: .*' "$work/out")"

@@ -9,8 +9,8 @@
 #include "calib/quality/epipolar_matches.h"
 #include "calib/solve/solve.h"
 #include "core/rectify/rectify_map.h"
+#include "daemon/pipeline/calibration_monitor.h"
 #include "daemon/pipeline/epipolar_monitor.h"
-#include "daemon/service/status_reporter.h"
 #include "tests/calib/datasets.h"
 #include "tests/support/board_scene.h"
 

@@ -8,7 +8,7 @@ export SYSTEMD_PAGER= SYSTEMD_COLORS=0 DEBIAN_FRONTEND=noninteractive
 property() { systemctl show --property "$1" --value stereod.service; }
 status_says() { text=$(property StatusText) && [[ $text =~ $1 ]]; }
 streams() {
-  wait_for 150 status_says '^(Streaming|Uncalibrated): [0-9.]+ frames a second' ||
+  wait_for 150 status_says '^(streaming|uncalibrated): [0-9.]+ fps' ||
     { systemctl status stereod; journalctl -u stereod -o cat; fail "it does not stream"; }
 }
 # The scenarios after this one find the machine's own route again.
