@@ -11,7 +11,7 @@ cd "$tree"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-find core daemon calib \( -name '*.h' -o -name '*.cpp' -o -name '*.in' \) -type f 2>/dev/null | LC_ALL=C sort >"$work/files"
+find core daemon calib \( -name '*.h' -o -name '*.cpp' -o -name '*.h.in' \) -type f 2>/dev/null | LC_ALL=C sort >"$work/files"
 [[ -s $work/files ]] || { echo "rooms: no sources in $tree" >&2 && exit 1; }
 # "FILE:LINE:#include …" of all sources.
 xargs -d '\n' grep -HnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<]' <"$work/files" >"$work/includes" || true
@@ -58,6 +58,8 @@ awk -v allowed_out="$work/allowed" -v headers_out="$work/headers" -v sizes_out="
       }
     } else if ($1 == "group") {
       group[$2] = expand(3)
+    } else if ($1 == "beside") {
+      for (i = 2; i <= NF; ++i) beside[$i] = 1
     } else if ($1 == "never") {
       never[++nevers] = $2
       never_what[nevers] = expand(3)
@@ -120,6 +122,14 @@ awk -v allowed_out="$work/allowed" -v headers_out="$work/headers" -v sizes_out="
       next
     }
     if (header ~ /^(core|daemon|calib)\//) { fail(place ": " header " lies in no room of the table"); next }
+    if (!bracket && from in beside && header !~ /\//) {
+      sibling = file
+      sub(/[^\/]*$/, "", sibling)
+      if ((sibling header) in exists) {
+        if (file ~ /\.h$/) print file, sibling header >headers_out
+        next
+      }
+    }
     if (!bracket) { fail(place ": \"" header "\" is not a path from the root of the tree"); next }
     name = library_of(header)
     if (name == "") fail(place ": <" header "> belongs to no library of the table")

@@ -43,6 +43,9 @@ finds() {
 tree
 judge || { cat out && echo "rooms: FAILED: a tree without fault is refused" >&2 && exit 1; }
 
+tree && echo 'beside core/base' >>table && echo '#include "image.h"' >core/base/size.cpp
+judge || { cat out && echo "rooms: FAILED: an installed header beside its user is refused" >&2 && exit 1; }
+
 tree && echo '#include "daemon/base/file.h"' >>core/match/matcher.h
 finds 'core/match/matcher.h:3: core/match must not include daemon/base (daemon/base/file.h)'
 tree && echo '#include "core/match/matcher.h"' >>core/base/image.h
@@ -59,6 +62,8 @@ tree && echo '#include <unknown/unknown.h>' >>daemon/base/file.cpp
 finds '<unknown/unknown.h> belongs to no library of the table'
 tree && echo '#include "image.h"' >>core/base/image.h
 finds '"image.h" is not a path from the root of the tree'
+tree && echo 'beside core/base' >>table && echo '#include "gone.h"' >>core/base/image.h
+finds '"gone.h" is not a path from the root of the tree'
 tree && mkdir core/attic && touch core/attic/old.cpp
 finds 'core/attic/old.cpp lies in no room of the table'
 tree && echo 'room core/base core/match' >>table && echo '#include "core/match/matcher.h"' >>core/base/image.h
