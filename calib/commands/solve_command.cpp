@@ -8,7 +8,7 @@
 #include "calib/commands/commands.h"
 #include "calib/report/report.h"
 #include "calib/report/summary.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 #include "daemon/config/calibration_file.h"
 
 namespace stereod::calib {

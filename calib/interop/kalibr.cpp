@@ -24,8 +24,8 @@ CameraModel read_camera(YamlSection section) {
   m.lens = lens == "equidistant" ? LensModel::kFisheye : LensModel::kPinhole;
   const std::vector<double> size = section.required_numbers("resolution", {2});
   for (const double side : size) {
-    if (!(side >= 1 && side <= kMaxWidth_px && side == std::floor(side))) {
-      section.fail("resolution", "allowed are two integers, 1…" + std::to_string(kMaxWidth_px));
+    if (!(side >= 1 && side <= kMaxImageFileSide && side == std::floor(side))) {
+      section.fail("resolution", "allowed are two integers, 1…" + std::to_string(kMaxImageFileSide));
     }
   }
   m.image = {static_cast<int>(size[0]), static_cast<int>(size[1])};

@@ -10,7 +10,7 @@
 #include "calib/interop/interop_checks.h"
 #include "core/geometry/stereo_rectification.h"
 #include "daemon/base/file_error.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 
 namespace stereod::calib {
 
@@ -111,7 +111,7 @@ Size image_size(const Storage& file, const OpenCvHints& hints, const fs::path& n
     throw FileError(name.string() +
                     ": does not contain the image size; give it with --image-size, like 640x480");
   }
-  return {file.integer("image_width", 1, kMaxWidth_px), file.integer("image_height", 1, kMaxWidth_px)};
+  return {file.integer("image_width", 1, kMaxImageFileSide), file.integer("image_height", 1, kMaxImageFileSide)};
 }
 
 cv::Mat matrix_of(const std::vector<double>& values, int rows) {

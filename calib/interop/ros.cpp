@@ -4,7 +4,7 @@
 
 #include "calib/interop/interop.h"
 #include "calib/interop/interop_checks.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 #include "daemon/config/yaml_section.h"
 
 namespace stereod::calib {
@@ -21,8 +21,8 @@ struct RosCamera {
 RosCamera read_camera(YamlSection& root, const std::string& name, const fs::path& file) {
   RosCamera result;
   CameraModel& m = result.camera.camera;
-  m.image = {root.required_integer("image_width", 1, kMaxWidth_px),
-             root.required_integer("image_height", 1, kMaxWidth_px)};
+  m.image = {root.required_integer("image_width", 1, kMaxImageFileSide),
+             root.required_integer("image_height", 1, kMaxImageFileSide)};
   const std::vector<double> k = root.required_section("camera_matrix").required_numbers("data", {9});
   if (!is_camera_matrix(k)) root.fail("camera_matrix", kCameraMatrix);
   m.fx = k[0], m.fy = k[4], m.cx = k[2], m.cy = k[5];

@@ -2,7 +2,7 @@
 // Describes settings. One table row for each drives reading, --help, validation and the manual.
 #pragma once
 
-#include <filesystem>
+#include <concepts>
 #include <map>
 #include <optional>
 #include <string>
@@ -77,6 +77,13 @@ std::optional<double> parse_number(std::string_view text);
 
 namespace option_detail {
 
+/// A member that names a file, such as std::filesystem::path, which core/ does not know.
+template <typename Member>
+concept FileName = requires(const Member& member, const std::string& text) {
+  { member.string() } -> std::convertible_to<std::string>;
+  Member(text);
+};
+
 template <typename Struct, typename Member>
 Struct struct_of(Member Struct::*);
 
@@ -92,7 +99,7 @@ constexpr auto& member_of(Struct& from) {
 
 template <typename Member>
 OptionValue value_of(const Member& member) {
-  if constexpr (std::is_same_v<Member, std::filesystem::path>) {
+  if constexpr (FileName<Member>) {
     return member.string();
   } else {
     return member;
@@ -105,7 +112,7 @@ OptionValue value_of(const std::optional<Member>& member) {
 
 template <typename Member>
 void assign(Member& member, const OptionValue& value) {
-  if constexpr (std::is_same_v<Member, std::filesystem::path>) {
+  if constexpr (FileName<Member>) {
     member = std::get<std::string>(value);
   } else {
     member = std::get<Member>(value);
@@ -128,7 +135,7 @@ constexpr OptionInfo::Type type_of(OptionInfo::Type type) {
     return OptionInfo::Type::kInteger;
   if constexpr (std::is_same_v<M, double> || std::is_same_v<M, std::optional<double>>)
     return OptionInfo::Type::kNumber;
-  if constexpr (std::is_same_v<M, std::filesystem::path>) return OptionInfo::Type::kFile;
+  if constexpr (option_detail::FileName<M>) return OptionInfo::Type::kFile;
   if constexpr (std::is_same_v<M, NamedIntegers>) return OptionInfo::Type::kIntegers;
   return type;
 }

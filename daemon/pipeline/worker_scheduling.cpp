@@ -26,8 +26,7 @@ int set_cpus(const std::vector<int>& cpus) noexcept {
 }
 
 std::string refusal(const std::string& setting, int error, const std::string& remedy) {
-  return "the system refused " + setting + " for the matching threads (" +
-         std::strerror(error) +  // NOLINT(concurrency-mt-unsafe)
+  return "the system refused " + setting + " for the matching threads (" + std::strerror(error) +
          "): " + remedy;
 }
 

@@ -9,7 +9,7 @@
 
 #include "calib/interop/interop.h"
 #include "core/geometry/stereo_rectification.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 #include "daemon/config/calibration_file.h"
 #include "tests/calib/commands/program_fixture.h"
 #include "tests/support/board_scene.h"

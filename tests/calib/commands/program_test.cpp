@@ -11,7 +11,7 @@
 
 #include "calib/board/board_finder.h"
 #include "core/geometry/stereo_rectification.h"
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 #include "daemon/config/calibration_file.h"
 #include "daemon/imagefile/read_image.h"
 #include "daemon/imagefile/write_image.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "daemon/base/text_file.h"
+#include "daemon/base/file.h"
 #include "daemon/imagefile/write_image.h"
 #include "tests/support/temporary_directory.h"
 
