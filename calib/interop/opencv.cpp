@@ -9,8 +9,8 @@
 #include "calib/interop/interop.h"
 #include "calib/interop/interop_checks.h"
 #include "core/geometry/stereo_rectification.h"
-#include "daemon/base/file_error.h"
 #include "daemon/base/file.h"
+#include "daemon/base/file_error.h"
 
 namespace stereod::calib {
 
@@ -111,7 +111,8 @@ Size image_size(const Storage& file, const OpenCvHints& hints, const fs::path& n
     throw FileError(name.string() +
                     ": does not contain the image size; give it with --image-size, like 640x480");
   }
-  return {file.integer("image_width", 1, kMaxImageFileSide), file.integer("image_height", 1, kMaxImageFileSide)};
+  return {file.integer("image_width", 1, kMaxImageFileSide),
+          file.integer("image_height", 1, kMaxImageFileSide)};
 }
 
 cv::Mat matrix_of(const std::vector<double>& values, int rows) {
