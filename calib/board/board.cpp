@@ -58,8 +58,8 @@ std::string to_string(const Board& board) {
 
 Vector3 board_point(const Board& board, std::size_t index) {
   const auto columns = static_cast<std::size_t>(board.columns);
-  return {static_cast<double>(index % columns) * board.square_m,
-          static_cast<double>(index / columns) * board.square_m, 0};
+  const std::size_t column = index % columns, row = index / columns;
+  return {static_cast<double>(column) * board.square_m, static_cast<double>(row) * board.square_m, 0};
 }
 
 }  // namespace stereod::calib

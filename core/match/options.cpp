@@ -92,7 +92,7 @@ std::optional<Problem> problem_with(const MatcherOptions& o) {
       return Problem{std::string(option.key), complaint(option, value_text(option, value))};
     }
   }
-  if (const auto problem = problem_with_method(o)) return problem;
+  if (auto problem = problem_with_method(o)) return problem;
   if (o.texture_threshold > 0 && o.prefilter == Prefilter::kNone) {
     return Problem{"texture_threshold", with(std::to_string(o.texture_threshold), "prefilter", "none") +
                                             ", allowed 0 (texture is measured on the xsobel image)"};

@@ -25,6 +25,7 @@ ScanPublisher::ScanPublisher(MessageBus& bus, const std::string& prefix, const S
       channel_(prefix + "_SCAN"),
       scan_(config.options, camera, config.ground),
       ground_known_(!config.fit_ground),
+      stop_wanted_(config.options.stop_distance_m > 0),
       encoder_(kMaxDatagram) {
   if (config.fit_ground) fit_.emplace(camera);
   message_.nranges = message_.nintensities = config.options.rays;
@@ -50,7 +51,7 @@ std::optional<ScanSummary> ScanPublisher::end_rows(const FrameTiming& timing) no
   if (fit_is_due()) follow(fit_->finish());
   ++frames_;
   ScanSummary summary;
-  summary.stop_reason = stop_reason(ground_was_known ? &result : nullptr);
+  if (stop_wanted_) summary.stop_reason = stop_reason(ground_was_known ? &result : nullptr);
   summary.stop = summary.stop_reason != StopReason::kNone;
   if (ground_was_known) {
     summary.nearest_m = result.nearest_m;

@@ -19,8 +19,8 @@ namespace stereod {
 
 /// Scans the rows while they are sent, so that the scan adds no latency to them, and publishes planar_lidar_t
 /// at the end of each frame. Estimates the ground plane if the configuration says so: until it is known,
-/// nothing is published and the summary says stop. Used by the publisher thread only; allocates nothing after
-/// construction.
+/// nothing is published and the summary says stop, unless no stop distance is configured. Used by the
+/// publisher thread only; allocates nothing after construction.
 class ScanPublisher final : public RowConsumer {
  public:
   ScanPublisher(MessageBus& bus, const std::string& prefix, const ScanConfig& config,
@@ -44,6 +44,7 @@ class ScanPublisher final : public RowConsumer {
   ObstacleScan scan_;
   std::optional<GroundFit> fit_;
   bool ground_known_;
+  const bool stop_wanted_;  // a stop distance is configured
   std::int64_t frames_ = 0;
   std::int64_t spent_ns_ = 0;  // on the present frame
   std::int64_t refused_ = 0;

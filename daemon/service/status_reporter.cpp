@@ -89,6 +89,7 @@ void StatusReporter::follow(Pipeline& pipeline, MessageBus& bus) {
   status_.paced = config.lcm.pacing > 0 ? 1 : 0;
   status_.left.device = pipeline.rig().left_name.substr(0, kMaxText);
   status_.right.device = pipeline.rig().right_name.substr(0, kMaxText);
+  publish_camera_info();
 }
 
 void StatusReporter::report() {

@@ -36,6 +36,7 @@ class Reference {
   DisparityImage match() const {
     const std::vector<CostsOfRow> costs = smoothed_costs(pair_);
     std::vector<ValueRow> grid;
+    grid.reserve(costs.size());
     for (int row = 0; row < pair_.grid_height; ++row) {
       grid.push_back(valid_winners(row, path_sums(pair_, costs[as_index(row)], row)));
     }

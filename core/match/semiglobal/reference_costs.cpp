@@ -127,12 +127,14 @@ int SampledPair::gray_step(int x, int y, int to_x, int to_y) const {
 
 std::vector<CostsOfRow> smoothed_costs(const SampledPair& pair) {
   std::vector<CostsOfRow> along;
+  along.reserve(as_index(pair.grid_height));
   for (int row = 0; row < pair.grid_height; ++row) along.push_back(smoothed_along_row(pair, row));
   std::vector<CostsOfRow> result;
   for (int row = 0; row < pair.grid_height; ++row) {
     CostsOfRow smoothed_row;
     for (int grid_x = 0; grid_x < pair.grid_width; ++grid_x) {
       std::vector<const Costs*> elements;
+      elements.reserve(along.size());
       for (const CostsOfRow& other : along) elements.push_back(&other[as_index(grid_x)]);
       smoothed_row.push_back(smoothed_at(elements, row));
     }

@@ -2,6 +2,8 @@
 // What stereod --list-cameras prints.
 #include "daemon/capture/v4l2/camera_list.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -51,9 +53,8 @@ std::string controls_of(VideoDevice& device) {
     const std::string now = device.get_control(control.id, value) == 0 ? std::to_string(value) : "?";
     std::string name = control.name;
     name.resize(std::max<std::size_t>(name.size(), 30), ' ');
-    text += row("", name + "  " + now + "  (range " + std::to_string(control.minimum) + "…" +
-                        std::to_string(control.maximum) + ", default " +
-                        std::to_string(control.default_value) + ")");
+    text += row("", fmt::format("{}  {}  (range {}…{}, default {})", name, now, control.minimum,
+                                control.maximum, control.default_value));
   }
   return text.empty() ? "" : row("controls", "present value, range and default") + text;
 }

@@ -54,9 +54,9 @@ TEST_F(Program, OutputLink_TargetReplaced) {
   fs::create_symlink("nowhere/c.yaml", directory_ / "broken.yaml");
   fs::create_symlink("circle.yaml", directory_ / "circle.yaml");
   fs::create_symlink("/dev/null", directory_ / "null.yaml");
-  EXPECT_THAT(import(file("l.yaml"), file("broken.yaml")).err, HasSubstr("there is no directory"));
+  EXPECT_THAT(import(file("l.yaml"), file("broken.yaml")).err, HasSubstr("the directory to write to does not exist"));
   EXPECT_THAT(import(file("l.yaml"), file("circle.yaml")).err, HasSubstr("leads in a circle"));
-  EXPECT_THAT(import(file("l.yaml"), file("null.yaml")).err, HasSubstr("a device or a pipe"));
+  EXPECT_THAT(import(file("l.yaml"), file("null.yaml")).err, HasSubstr("is a device, pipe or socket"));
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
@@ -92,7 +92,7 @@ TEST_F(Program, Output_InputFileRefused) {
     const std::string before = text_of(file(victim));
     const ProgramRun result = run(arguments);
     EXPECT_EQ(result.status, 2) << result.err;
-    EXPECT_THAT(result.err, HasSubstr(victim + ": is named twice, and would be overwritten"));
+    EXPECT_THAT(result.err, HasSubstr(victim + ": is named twice and would be overwritten"));
     EXPECT_EQ(text_of(file(victim)), before);
   };
   refused("r.yaml", {"import", "--ros", file("l.yaml"), file("r.yaml"), "-o", file("r.yaml")});

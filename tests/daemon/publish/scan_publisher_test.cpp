@@ -59,6 +59,19 @@ TEST(ScanPublisher, KnownGround_PublishesScan) {
   EXPECT_FALSE(publish(publisher, floor_disparity(camera, kGround, {}), 78).stop);
 }
 
+TEST(ScanPublisher, NoStopDistance_NeverStops) {
+  const ScanGeometry camera = floor_camera();
+  const DisparityImage posts = floor_disparity(camera, kGround, kPosts);
+  KeepingBus<planar_lidar_t> bus("T_SCAN");
+  for (ScanConfig config : {ScanConfig(), given_ground()}) {
+    config.options.stop_distance_m = 0;
+    ScanPublisher publisher(bus, "T", config, camera);
+    const ScanSummary summary = publish(publisher, posts, 0);
+    EXPECT_FALSE(summary.stop);
+    EXPECT_EQ(summary.stop_reason, StopReason::kNone);
+  }
+}
+
 TEST(ScanPublisher, EstimatedGround_StopsUntilKnown) {
   const ScanGeometry camera = floor_camera();
   const DisparityImage image = floor_disparity(camera, kGround, {});

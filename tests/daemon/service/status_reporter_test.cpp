@@ -12,7 +12,7 @@
 namespace stereod {
 namespace {
 
-TEST(StatusReporter, FirstFrames_StartingThenStreaming) {
+Config small_scene() {
   Config config;
   config.cameras.source = SourceKind::kSynthetic;
   config.cameras.fps = 0;
@@ -22,6 +22,11 @@ TEST(StatusReporter, FirstFrames_StartingThenStreaming) {
   config.workers = 1;
   config.lcm.prefix = "T";
   config.lcm.pacing = 0;
+  return config;
+}
+
+TEST(StatusReporter, FirstFrames_StartingThenStreaming) {
+  const Config config = small_scene();
   KeepingBus<status_t> bus("T_STATUS");
   Pipeline pipeline(config, open_stereo_source(config), bus);
   StatusReporter reporter(pipeline, bus);
@@ -41,6 +46,18 @@ TEST(StatusReporter, FirstFrames_StartingThenStreaming) {
   EXPECT_EQ(messages[1].left.device, "synthetic scene");
   EXPECT_EQ(messages[1].left.decode_errors, 0);
   EXPECT_GT(messages[1].rss_mb, 1);
+}
+
+TEST(StatusReporter, OtherPipeline_CameraInfoSentAtOnce) {
+  const Config config = small_scene();
+  KeepingBus<camera_info_t> bus("T_CAMERA_INFO");
+  Pipeline pipeline(config, open_stereo_source(config), bus);
+  StatusReporter reporter(pipeline, bus);
+  ASSERT_EQ(bus.messages().size(), 1u);
+  reporter.follow(pipeline, bus);
+  ASSERT_EQ(bus.messages().size(), 2u);
+  EXPECT_EQ(bus.messages()[1].width, 160);
+  EXPECT_EQ(bus.messages()[1].calibration_id, bus.messages()[0].calibration_id);
 }
 
 TEST(JudgeState, SomethingMissing_NamedCause) {
