@@ -65,4 +65,11 @@ int run(int argc, char** argv) {
 
 }  // namespace stereod::calib
 
-int main(int argc, char** argv) { return stereod::calib::run(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return stereod::calib::run(argc, argv);
+  } catch (...) {
+    std::fputs("stereo-calibrate: unexpected error\n", stderr);
+    return stereod::calib::kExitFailure;
+  }
+}

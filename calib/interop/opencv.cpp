@@ -43,7 +43,7 @@ class Storage {
     if (matrix.channels() != 1 || !cv::checkRange(matrix)) fail(name, "allowed are finite numbers");
     cv::Mat wide;
     matrix.convertTo(wide, CV_64F);
-    const std::vector<double> values = wide.reshape(1, 1);
+    std::vector<double> values = wide.reshape(1, 1);
     for (const std::size_t count : counts) {
       if (values.size() == count) return values;
     }

@@ -41,6 +41,7 @@ std::vector<std::string> Coverage::empty_parts() const {
   std::stable_sort(parts.begin(), parts.end(),
                    [](const Part& a, const Part& b) { return a.share < b.share; });
   std::vector<std::string> names;
+  names.reserve(parts.size());
   for (const Part& part : parts) names.push_back(image_part_name(part.number));
   return names;
 }

@@ -33,11 +33,13 @@ ImagePoints points_of(const Corners& corners) {
 // cv::calibrateCamera() and cv::stereoCalibrate() need single precision.
 std::vector<std::vector<cv::Point3f>> single_precision(const std::vector<ObjectPoints>& lists) {
   std::vector<std::vector<cv::Point3f>> result;
+  result.reserve(lists.size());
   for (const ObjectPoints& list : lists) result.emplace_back(list.begin(), list.end());
   return result;
 }
 std::vector<std::vector<cv::Point2f>> single_precision(const std::vector<ImagePoints>& lists) {
   std::vector<std::vector<cv::Point2f>> result;
+  result.reserve(lists.size());
   for (const ImagePoints& list : lists) result.emplace_back(list.begin(), list.end());
   return result;
 }

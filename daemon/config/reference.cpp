@@ -64,7 +64,7 @@ std::string name_of_section(std::string_view path) {
 /// Appends text as a comment, broken at spaces.
 void append_comment(std::string& yaml, const std::string& indent, std::string_view text) {
   for (const std::string& line : wrapped(text, kLineWidth - indent.size() - 2)) {
-    yaml += indent + "# " + line + "\n";
+    yaml.append(indent).append("# ").append(line).append("\n");
   }
 }
 

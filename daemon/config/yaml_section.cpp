@@ -116,7 +116,7 @@ std::optional<OptionValue> YamlSection::value(const OptionInfo& option) {
     if (found->empty()) fail(key, complaint(option, *found));
     return (file_.parent_path() / *found).string();
   }
-  if (const std::optional<OptionValue> value = parse_value(option, *found)) return value;
+  if (std::optional<OptionValue> value = parse_value(option, *found)) return value;
   const std::string_view renamed = new_value(full_name(key), *found);
   fail(key, complaint(option, *found) +
                 (renamed.empty() ? "" : "; '" + *found + "' is now '" + std::string(renamed) + "'"));

@@ -113,7 +113,7 @@ std::int64_t FramePublisher::frames() const noexcept {
 
 PublisherStats FramePublisher::take_stats() noexcept {
   const std::lock_guard lock(mutex_);
-  const PublisherStats taken = stats_;
+  PublisherStats taken = stats_;
   stats_.latency_ms.clear();
   stats_.match_ms.clear();
   stats_.skew_ms.clear();

@@ -63,6 +63,7 @@ if [[ ${1:-} == --unit ]]; then
     case ${words[i]} in
       -o) i=$((i + 1)) ;;
       -c | "$file" | */c++ | */g++) ;;
+      -fvect-cost-model=* | -mmemset-strategy=*) ;;  # only g++ knows them
       *) flags+=("${words[i]}") ;;
     esac
   done

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 
 #include "daemon/capture/v4l2/videodev2_fields.h"
 
@@ -70,7 +71,7 @@ int VideoDevice::set_rate(double fps, double& actual) {
   actual = 0;
   v4l2_streamparm answer{};
   answer.type = kCapture;
-  answer.parm.capture.timeperframe = {1000, static_cast<std::uint32_t>(fps * 1000 + 0.5)};
+  answer.parm.capture.timeperframe = {1000, static_cast<std::uint32_t>(std::lround(fps * 1000))};
   if (const int error = request(VIDIOC_S_PARM, &answer)) {
     return error == EINVAL || error == ENOTTY ? 0 : error;  // many drivers have a fixed rate
   }
