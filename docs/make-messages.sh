@@ -58,7 +58,7 @@ write_all() {
   echo
   echo '| channel | type | published |'
   echo '|---|---|---|'
-  echo '| `STEREO_DISPARITY` | disparity_rows_t | as soon as rows are final |'
+  echo '| `STEREO_DISPARITY` | disparity_rows_t | when rows are final, spread over time by `lcm.pacing` |'
   echo '| `STEREO_FRAME` | frame_t | after the last row of a frame |'
   echo '| `STEREO_CAMERA_INFO` | camera_info_t | once a second and on change |'
   echo '| `STEREO_STATUS` | status_t, with two camera_status_t | once a second |'

@@ -14,8 +14,8 @@ std::vector<MatcherOption> make_table() {
       choice<kMethodNames, &M::method>(
           {.key = "method",
            .description =
-               "Matching along paths (semiglobal) or by square windows (block). A key of the method that is "
-               "not selected is refused."}),
+               "Matching along paths (semiglobal) or by square windows (block). A key that exists only with the "
+               "other method is an error."}),
       option<&M::min_disparity>({.key = "min_disparity",
                                  .unit = "px",
                                  .minimum = 0,
@@ -33,23 +33,26 @@ std::vector<MatcherOption> make_table() {
           {.key = "grid",
            .only_with = kOnlySemiglobal,
            .description =
-               "Samples compared. coarse takes every second row and column, fine every second row and each "
-               "column, for thin objects."}),
+               "Pixels that are matched; the others are interpolated. coarse: every second row and every second "
+               "column. fine: every second row and every column (for thin objects)."}),
       option<&M::p1>({.key = "p1",
                       .minimum = 0,
                       .maximum = 255,
                       .only_with = kOnlySemiglobal,
                       .description = "Cost of a disparity step of 1 along a path."}),
-      option<&M::p2>({.key = "p2",
-                      .minimum = 0,
-                      .maximum = 255,
-                      .only_with = kOnlySemiglobal,
-                      .description = "Cost of a larger disparity step, less the step in gray levels there."}),
-      option<&M::census_weight>({.key = "census_weight",
-                                 .minimum = 0,
-                                 .maximum = 16,
-                                 .only_with = kOnlySemiglobal,
-                                 .description = "Cost of each of the eight census comparisons that differ."}),
+      option<&M::p2>(
+          {.key = "p2",
+           .minimum = 0,
+           .maximum = 255,
+           .only_with = kOnlySemiglobal,
+           .description =
+               "Cost of a disparity step larger than 1, minus the difference of the gray levels at that place."}),
+      option<&M::census_weight>(
+          {.key = "census_weight",
+           .minimum = 0,
+           .maximum = 16,
+           .only_with = kOnlySemiglobal,
+           .description = "Cost of one differing census comparison (there are eight per pixel)."}),
       option<&M::gradient_limit>({.key = "gradient_limit",
                                   .minimum = 0,
                                   .maximum = 64,
@@ -90,16 +93,19 @@ std::vector<MatcherOption> make_table() {
            .unit = "%",
            .minimum = 0,
            .maximum = 100,
-           .description = "Margin by which the best match must beat the others. 0 turns the test off."}),
+           .description =
+               "The cost of every other match (except the two neighboring disparities) must exceed the lowest cost "
+               "by this percentage. 0 turns the test off."}),
       option<&M::left_right_max_diff>(
           {.key = "left_right_max_diff",
            .unit = "px",
            .minimum = -1,
            .maximum = 255,
            .description =
-               "Maximum difference to the match found from the right image. -1 turns the test off."}),
+               "Maximum difference between the disparity of the left pixel and the disparity found from the right "
+               "image. -1 turns the test off."}),
       option<&M::subpixel>(
-          {.key = "subpixel", .description = "Measures in 1/16 px (true) or whole pixels (false)."}),
+          {.key = "subpixel", .description = "Resolution of disparities: 1/16 px (true) or 1 px (false)."}),
       option<&M::median>(
           {.key = "median",
            .unit = "px",
@@ -112,8 +118,8 @@ std::vector<MatcherOption> make_table() {
            .maximum = 1'000'000,
            .default_name = "off",
            .description =
-               "Maximum area of the isolated regions that are removed. The filter waits for the whole frame; "
-               "without it rows leave as soon as they are matched."}),
+               "Maximum area of the isolated regions that are removed. The filter needs the whole frame, so rows "
+               "are sent only after the last row is matched."}),
       option<&M::speckle_max_diff>(
           {.key = "speckle_max_diff",
            .unit = "px",
@@ -132,8 +138,9 @@ std::vector<MatcherOption> make_table() {
           {.key = "cache",
            .only_with = kOnlyBlock,
            .description =
-               "Use of the CPU's caches; the results are equal. Each worker takes 0.7 MB (large) or 0.45 MB "
-               "(small, for a first-level cache of 24 KiB); auto selects by the CPU."}),
+               "Memory layout of a worker, for the cache of the CPU. It does not change the results. Each worker "
+               "takes 0.7 MB (large) or 0.45 MB (small, for a first-level cache of 24 KiB); auto selects by the "
+               "CPU."}),
       choice<kCostNames, &M::cost>(
           {.key = "cost",
            .only_with = kOnlyBlock,
@@ -156,7 +163,11 @@ const OptionInfo& matcher_preset_option() {
       .type = OptionInfo::Type::kChoice,
       .names = {kMatcherPresets.begin(), kMatcherPresets.end()},
       .description =
-          "Settings of the matcher; the other keys change single ones. robust: for robots; pixels that cannot be trusted have no value. dense: robust with filled holes, which messages mark. fine: robust at twice the work, for thin objects. fast: block matching with a value for every pixel. thesis: block matching by sums of absolute differences of gray levels, without any test."};
+          "A set of matcher settings; each other key replaces one of them. robust: for robots; unreliable "
+          "pixels have no value. dense: as robust, but with uniqueness_ratio: 0 and hole_filling: true; "
+          "messages mark the filled pixels. fine: as robust, at twice the work, for thin objects. fast: block "
+          "matching with a value for every pixel. thesis: block matching by sums of absolute differences of "
+          "gray levels, without any test."};
   return option;
 }
 

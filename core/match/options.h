@@ -67,7 +67,8 @@ struct MatcherOptions {
 };
 
 /// Names of the presets. Block matching: `thesis` (raw sums of absolute differences, no filter), `fast` (a value for every
-/// pixel). Semi-global: `robust` (no false matches), `dense` (the same, filled), `fine` (for thin objects).
+/// pixel). Semi-global: `robust` (unreliable pixels have no value), `dense` (as robust, but with uniqueness_ratio 0 and
+/// hole_filling), `fine` (for thin objects).
 inline constexpr std::array<std::string_view, 5> kMatcherPresets{"robust", "dense", "fine", "fast", "thesis"};
 
 /// Returns the options of a preset, nothing if the name is unknown.

@@ -86,7 +86,7 @@ void PhaseSync::lose_phase() noexcept {
 
 void PhaseSync::evaluate(std::int64_t skew_ns, std::int64_t period_ns, std::int64_t now_ns) noexcept {
   if (!options_.enabled) {
-    state_ = PhaseSyncState::kOff;
+    state_ = PhaseSyncState::kNone;
     return;
   }
   const std::int64_t distance = std::abs(skew_ns);

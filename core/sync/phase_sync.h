@@ -19,7 +19,7 @@ struct PhaseSyncOptions {
 };
 
 enum class PhaseSyncState {
-  kOff,      ///< disabled; the skew is measured nevertheless
+  kNone,     ///< disabled; the skew is measured nevertheless
   kWaiting,  ///< for frames of both cameras
   kMeasuring,
   kRestarting,  ///< a camera must be restarted, or was restarted and has delivered no frame yet

@@ -49,13 +49,14 @@ const Options<CamerasConfig>& cameras_options() {
            .example = "v4l2",
            .description =
                "Origin of the frames. v4l2: two cameras. replay: recorded images. synthetic: a rendered scene of known depth. log: raw images in an LCM log."}),
-      option<&C::fps>({.key = "fps",
-                       .unit = "Hz",
-                       .minimum = 0,
-                       .maximum = 240,
-                       .description =
-                           "Frame rate, at least 1 for source v4l2. 0 processes every frame as soon as the "
-                           "previous one is sent and drops none."}),
+      option<&C::fps>(
+          {.key = "fps",
+           .unit = "Hz",
+           .minimum = 0,
+           .maximum = 240,
+           .description =
+               "Frame rate, at least 1 for source v4l2. 0: stereod processes every frame when the previous frame is "
+               "sent, and drops no frame."}),
       option<&C::max_skew_ms>(
           {.key = "max_skew_ms",
            .unit = "ms",
@@ -84,7 +85,8 @@ const Options<CamerasConfig>& replay_options() {
                "Directory of numbered pairs, instead of left and right. The names are left_00.png and "
                "right_00.png, or left/00.png and right/00.png, and so on."}),
       option<&C::replay_loop>(
-          {.key = "loop", .description = "Starts again after the last pair (true) or exits (false)."}),
+          {.key = "loop",
+           .description = "After the last pair: stereod starts again (true) or exits (false)."}),
   };
   return table;
 }
@@ -92,18 +94,20 @@ const Options<CamerasConfig>& replay_options() {
 const Options<CamerasConfig>& log_source_options() {
   using C = CamerasConfig;
   static const Options<C> table{
-      option<&C::log_file>({.key = "file",
-                            .format = "LCM log",
-                            .example = "field.lcm",
-                            .description =
-                                "Log with raw images, written by lcm-logger or 'stereo-tap record' while "
-                                "lcm.raw_images was true. Frames keep the times of the log; cameras.fps: 0 "
-                                "plays at the pace of the matcher, any other rate at the pace of the log."}),
+      option<&C::log_file>(
+          {.key = "file",
+           .format = "LCM log",
+           .example = "field.lcm",
+           .description =
+               "Log with raw images, written by lcm-logger or 'stereo-tap record' while lcm.raw_images was true. "
+               "Frames keep the timestamps of the log. With cameras.fps: 0 stereod plays the log as fast as it can "
+               "match; with any other value it plays at the recorded speed."}),
       option<&C::log_prefix>({.key = "prefix",
                               .format = "text",
                               .description = "First part of the names of the channels in the log."}),
       option<&C::log_loop>(
-          {.key = "loop", .description = "Starts again after the last pair (true) or exits (false)."}),
+          {.key = "loop",
+           .description = "After the last pair: stereod starts again (true) or exits (false)."}),
   };
   return table;
 }
@@ -130,7 +134,7 @@ const Options<CamerasConfig>& synthetic_options() {
                            .unit = "ms",
                            .minimum = -100,
                            .maximum = 100,
-                           .description = "Time by which the right camera exposes later."}),
+                           .description = "Delay of the right camera's exposure relative to the left one."}),
   };
   return table;
 }

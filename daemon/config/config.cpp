@@ -65,8 +65,7 @@ Option<RectifyConfig> interpolation_option() {
        .names = {name_of(Interpolation::kBilinear), name_of(Interpolation::kNearest)},
        .description =
            "Value of a rectified pixel, from the four pixels around its source (bilinear) or the nearest one. "
-           "nearest takes a quarter of the time, shifts rows by up to half a pixel and loses a tenth more "
-           "pixels."},
+           "nearest takes 25 % of the time of bilinear, but shifts rows by up to 0.5 px."},
       [](const RectifyConfig& rectify) { return OptionValue(std::string(name_of(rectify.interpolation))); },
       [](RectifyConfig& rectify, const OptionValue& value) {
         rectify.interpolation = parse_interpolation(std::get<std::string>(value)).value();
@@ -112,8 +111,8 @@ const Options<Config>& root_options() {
            .format = "file by stereo-calibrate",
            .example = "calibration.yaml",
            .description =
-               "Calibration of the two cameras, relative to the directory of this file. Without it the images "
-               "are matched as they are and must be rectified already; source synthetic has its own."}),
+               "Calibration of the two cameras, relative to the directory of this file. Without it stereod does not "
+               "rectify, so the images must already be rectified. source synthetic has a built-in calibration."}),
       option<&Config::workers>({.key = "workers",
                                 .minimum = 0,
                                 .maximum = kMaxWorkers,
@@ -133,7 +132,8 @@ const Options<RectifyConfig>& rectify_options() {
            .default_name = "that of the calibration",
            .example = "0.5",
            .description =
-               "Part of the view that is kept. 0: only what both cameras have pixels for. 1: all of it, with margins that are never matched. Calibrations by stereo-calibrate have 0."}),
+               "Part of the image that rectification keeps. 0: only the area that both cameras see. 1: the whole "
+               "image of both cameras, with empty margins that are not matched. stereo-calibrate writes 0."}),
   };
   return table;
 }
@@ -170,21 +170,21 @@ const Options<LcmConfig>& lcm_options() {
            .unset_name = "auto",
            .default_name = "16, or as many as fit",
            .description =
-               "Rows of the disparity image in one message, which holds at most 65243 bytes of them."}),
+               "Number of disparity rows in one message. A message holds at most 65243 bytes of row data."}),
       option<&L::pacing>(
           {.key = "pacing",
            .minimum = 0,
            .maximum = 0.9,
            .description =
-               "Share of the frame period (up to 0.1 s) over which the rows of a frame are sent, so that a burst "
-               "does not overrun a receiver's socket buffer. 0 sends rows as soon as they are matched; fps: 0 "
-               "counts as 30 Hz."}),
+               "Share of the frame period (up to 0.1 s) over which the rows of a frame are sent, so that the socket "
+               "buffer of a receiver does not overflow. 0 sends rows as soon as they are matched; fps: 0 counts as "
+               "30 Hz."}),
       option<&L::raw_images>(
           {.key = "raw_images",
            .description =
                "Publishes the cameras' images as STEREO_LEFT_RAW and STEREO_RIGHT_RAW (bot_core.image_t), for "
-               "calibration. An image takes many datagrams and is lost with any one of them: for this machine, "
-               "or with large socket buffers."}),
+               "calibration. One image needs many datagrams; if one is lost, the image is lost. Use it on this "
+               "machine only, or with large socket buffers."}),
       option<&L::raw_images_per_second>({.key = "raw_images_per_second",
                                          .unit = "Hz",
                                          .minimum = 0.1,

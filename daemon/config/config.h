@@ -37,11 +37,11 @@ enum class ExposureMode {
   kLock,    ///< the left camera for two seconds; then both keep that exposure
 };
 
-/// Selects when the right camera is restarted so that both expose at the same time.
+/// Selects when the camera that started last is restarted so that both expose at the same time.
 enum class SyncMode {
   kNone,
-  kStart,   ///< when both have begun to stream
-  kAlways,  ///< also when they have drifted apart
+  kStart,   ///< once, after both cameras stream
+  kAlways,  ///< again when the difference exceeds 2 × max_sync_skew_ms
 };
 
 /// Holds values of camera controls by name, such as gain.

@@ -48,11 +48,11 @@ const Options<PublishConfig>& publish_options() {
           {.key = "decimation_x",
            .minimum = 1,
            .maximum = kMaxDecimation,
-           .description = "Sends every n-th column. Saves network load, not computing time."}),
+           .description = "n: stereod sends every n-th column. Saves network load, not computing time."}),
       option<&P::decimation_y>({.key = "decimation_y",
                                 .minimum = 1,
                                 .maximum = kMaxDecimation,
-                                .description = "Sends every n-th row."}),
+                                .description = "n: stereod sends every n-th row."}),
       option<&P::depth>({.key = "depth",
                          .description =
                              "Also publishes depth in millimeters as STEREO_DEPTH (depth_rows_t), 16 bits a "
@@ -66,8 +66,8 @@ const Options<PublishConfig>& publish_options() {
            .minimum = 1,
            .maximum = kMaxDecimation,
            .description =
-               "Takes every n-th column and row of the region for the points. With 8, the points of 640×480 "
-               "pixels fit into one datagram; losing one of several datagrams loses all points."}),
+               "n: the point cloud contains every n-th column and every n-th row of the region. With 8, the points "
+               "of 640×480 pixels fit into one datagram; losing one of several datagrams loses all points."}),
   };
   return table;
 }

@@ -119,12 +119,13 @@ std::vector<SectionReference> config_reference() {
       {"", "", false, rows_of(root_options())},
       {"rectify", "", false, rows_of(rectify_options())},
       {"matcher",
-       "The defaults are those of preset: robust, for keys of method: block those of preset: fast.", false,
-       matcher_rows()},
+       "The defaults below are those of preset: robust. For keys that exist only with method: block they are those of "
+       "preset: fast.",
+       false, matcher_rows()},
       {"scheduling",
-       "How the kernel runs the matching threads. Both keys need a permission of the unit: install realtime.conf from "
-       "/usr/share/doc/stereod/examples. Without it, the log and the status report the refusal and the threads run "
-       "normally.",
+       "How the kernel runs the matching threads. Both keys need permissions of the systemd unit: install "
+       "/usr/share/doc/stereod/examples/realtime.conf. Without them the threads run with normal scheduling, and the log "
+       "and the status say so.",
        false, rows_of(scheduling_options())},
       {"lcm", "", false, rows_of(lcm_options())},
       {"publish", "Which part of the disparity image is published, and what is derived from it.", false,
@@ -141,9 +142,9 @@ std::vector<SectionReference> config_reference() {
 std::string reference_yaml() {
   std::string yaml =
       "# SPDX-License-Identifier: BSD-3-Clause\n"
-      "# Configuration of stereod: every key with its unit, range and default. A key in a comment has no default, or changes\n"
-      "# a single setting of the preset. An unknown key or a value out of range ends the start with the line, the value found\n"
-      "# and the values allowed. Check a change with\n"
+      "# Configuration of stereod: every key with its unit, range and default. A key in a comment is optional: it has no\n"
+      "# default value, or it replaces one setting of the preset. An unknown key or a value out of range ends the start with\n"
+      "# the line, the value found and the values allowed. Check a change with\n"
       "#   stereod --check-config --config FILE\n\n";
   for (const SectionReference& section : config_reference()) append_section(yaml, section);
   yaml.pop_back();
@@ -152,6 +153,7 @@ std::string reference_yaml() {
 
 std::string reference_man_page() {
   std::string page =
+      ".\\\" SPDX-License-Identifier: BSD-3-Clause\n"
       ".\\\" Written by write_reference from the tables of options.\n"
       ".TH STEREOD.YAML 5 \"\" stereod \"File formats\"\n"
       ".SH NAME\n"
@@ -168,7 +170,7 @@ std::string reference_man_page() {
       "and the values allowed, and with exit status 78.\n"
       ".B stereod \\-\\-check\\-config\n"
       "checks a file without starting.\n"
-      "The shipped file has every key in a comment or with its default.\n"
+      "The installed file contains every key: with its default, or as a comment.\n"
       ".SH KEYS\n";
   for (const SectionReference& section : config_reference()) {
     page += section.path.empty() ? ".SS Keys outside of sections\n" : ".SS " + roff(section.path) + "\n";

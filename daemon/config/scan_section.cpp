@@ -40,8 +40,9 @@ const Options<ScanConfig>& scan_options() {
                "once a frame. Needs a calibration."}),
       choice<kGroundNames, &S::fit_ground>(
           {.key = "ground",
-           .description = "Position of the floor. estimate: found in the disparities and followed. fixed: as "
-                          "camera_height_m and camera_pitch_deg say."}),
+           .description =
+               "Position of the floor. estimate: stereod computes it from the disparities and updates it. fixed: "
+               "camera_height_m and camera_pitch_deg give it."}),
       option<&S::ground, &GroundPlane::height_m>(
           {.key = "camera_height_m",
            .unit = "m",
@@ -55,14 +56,15 @@ const Options<ScanConfig>& scan_options() {
            .unit = "m",
            .minimum = 0.001,
            .maximum = 2,
-           .description = "Maximum height above the floor of what can be driven over."}),
+           .description = "The robot can drive over objects up to this height above the floor."}),
       option<&S::options, &O::max_obstacle_height_m>(
           {.key = "max_obstacle_height_m",
            .unit = "m",
            .minimum = 0.002,
            .maximum = 10,
-           .description = "Height above the floor from which things can be driven under. Must be above "
-                          "min_obstacle_height_m."}),
+           .description =
+               "The robot can drive under objects above this height above the floor. Must be above "
+               "min_obstacle_height_m."}),
       option<&S::options, &O::max_range_m>({.key = "max_range_m",
                                             .unit = "m",
                                             .minimum = 0.1,
@@ -82,13 +84,14 @@ const Options<ScanConfig>& scan_options() {
            .minimum = 0,
            .maximum = 100,
            .description =
-               "Distance to an obstacle ahead below which frame_t's flag stop is set; 0 never sets it. The flag "
-               "is also set while too little is seen, or the floor is not found yet."}),
-      option<&S::options, &O::stop_width_m>({.key = "stop_width_m",
-                                             .unit = "m",
-                                             .minimum = 0.01,
-                                             .maximum = 10,
-                                             .description = "Width of the way ahead that must be free."}),
+               "stereod sets the flag stop of frame_t if an obstacle in the way ahead is nearer than this, if more "
+               "than 25 % of the way ahead was not seen, or while the floor is not found. 0: stop is never set."}),
+      option<&S::options, &O::stop_width_m>(
+          {.key = "stop_width_m",
+           .unit = "m",
+           .minimum = 0.01,
+           .maximum = 10,
+           .description = "Width of the strip in front of the robot in which obstacles set the flag stop."}),
   };
   return table;
 }

@@ -80,8 +80,8 @@ const Options<V4l2Config>& v4l2_options() {
            .format = kDevice,
            .accepts = is_device,
            .description =
-               "Left camera. A port (by-path) keeps left on the left after a replug; auto, for both "
-               "cameras, takes them in the order of their ports."}),
+               "Left camera. A port name (by-path) stays valid when the camera is plugged in again. auto takes both "
+               "cameras in the order of their USB ports; set it for both or for none."}),
       option<&V::right>(
           {.key = "right", .format = "as for left", .accepts = is_device, .description = "Right camera."}),
       option<&V::width>({.key = "width",
@@ -99,33 +99,41 @@ const Options<V4l2Config>& v4l2_options() {
            .type = OptionInfo::Type::kChoice,
            .names = {"auto", "gray", "nv12", "yu12", "yuyv", "uyvy", "y10", "y16", "mjpeg"},
            .description =
-               "Pixel format. auto takes the best that the bus has bandwidth for: uncompressed, else mjpeg, else "
-               "a lower rate; libv4l2 converts a format that stereod cannot read."}),
+               "Pixel format. auto tries an uncompressed format, then mjpeg, then a lower frame rate, until the bus "
+               "has enough bandwidth; libv4l2 converts a format that stereod cannot read."}),
       choice<kExposureNames, &V::exposure>(
           {.key = "exposure",
            .description =
-               "Control of the exposure. auto: each camera controls its own. follow (recommended): the right camera copies the left one. lock: both keep the exposure found in the first two seconds."}),
+               "Control of the exposure. auto: each camera controls its own exposure. follow (recommended): stereod "
+               "copies exposure time and gain of the left camera to the right camera. lock: as follow for 2 s, then "
+               "both values are fixed."}),
       option<&V::controls>(
           {.key = "controls",
            .format = kControls,
            .description =
-               "Controls of both cameras by name, such as {power_line_frequency: 1, gain: 20}. Automatic modes "
-               "that would override a value are switched off; an exposure_time_absolute or a gain named here is "
-               "not followed or locked."}),
+               "Controls of both cameras by name, such as {power_line_frequency: 1, gain: 20}. Automatic modes that "
+               "would override a value are switched off; follow and lock do not change an exposure_time_absolute or "
+               "a gain that is set here."}),
       option<&V::left_controls>(
-          {.key = "left_controls", .format = kControls, .description = "More controls of the left camera."}),
-      option<&V::right_controls>({.key = "right_controls",
-                                  .format = kControls,
-                                  .description = "More controls of the right camera."}),
+          {.key = "left_controls",
+           .format = kControls,
+           .description = "Controls of the left camera only, in addition to controls."}),
+      option<&V::right_controls>(
+          {.key = "right_controls",
+           .format = kControls,
+           .description = "Controls of the right camera only, in addition to controls."}),
       choice<kSyncNames, &V::sync>(
           {.key = "sync",
            .description =
-               "Restarts of the camera that started last until both expose at the same time. start: after both began to stream. always: also when they have drifted apart by 2 × max_sync_skew_ms."}),
-      option<&V::max_sync_skew_ms>({.key = "max_sync_skew_ms",
-                                    .unit = "ms",
-                                    .minimum = 0.1,
-                                    .maximum = 100,
-                                    .description = "Time between the exposures that sync accepts."}),
+               "stereod restarts the camera that started last until both cameras expose at the same time (within "
+               "max_sync_skew_ms). start: once, after both cameras stream. always: again when the difference "
+               "exceeds 2 × max_sync_skew_ms. none: never."}),
+      option<&V::max_sync_skew_ms>(
+          {.key = "max_sync_skew_ms",
+           .unit = "ms",
+           .minimum = 0.1,
+           .maximum = 100,
+           .description = "Maximum time between both exposures at which sync stops restarting."}),
       option<&V::sync_attempts>({.key = "sync_attempts",
                                  .minimum = 1,
                                  .maximum = 100,

@@ -18,7 +18,7 @@ PhaseSyncOptions sync_options(const V4l2Config& config) {
   return options;
 }
 
-constexpr EnumNames<PhaseSyncState, 7> kSyncStates{{{PhaseSyncState::kOff, "off"},
+constexpr EnumNames<PhaseSyncState, 7> kSyncStates{{{PhaseSyncState::kNone, "none"},
                                                     {PhaseSyncState::kWaiting, "waiting"},
                                                     {PhaseSyncState::kMeasuring, "measuring"},
                                                     {PhaseSyncState::kRestarting, "restarting"},

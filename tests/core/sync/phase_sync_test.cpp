@@ -223,7 +223,7 @@ TEST(PhaseSync, Off_OnlyMeasures) {
   options.enabled = false;
   StereoSource rig(options);
   rig.run(10 * kSecond);
-  EXPECT_EQ(rig.phase.state(), PhaseSyncState::kOff);
+  EXPECT_EQ(rig.phase.state(), PhaseSyncState::kNone);
   EXPECT_EQ(*rig.phase.skew_ns(), 16 * kMs);
   EXPECT_EQ(rig.right_restarts, 0);
 }
