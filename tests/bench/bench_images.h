@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The images that are measured on, and the bridge to OpenCV.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The matcher beside OpenCV's StereoBM: every setting, instruction set and number of threads.
 //
 // Usage: bench_matcher [rounds]. In each row all contestants take turns within one run; a factor is how many

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rectification beside OpenCV's: the table of runs and cv::remap on one image of 640×480.
 #include <cstdlib>
 #include <iostream>
@@ -62,7 +63,7 @@ void rectify(const RectifyMap& map, const cv::Mat& source, cv::Mat& out, RowRang
 /// anyway when rows are to be rectified.
 void rectify_batch(const RectifyMap& map, const cv::Mat& source, cv::Mat& out, WorkerPool& pool) {
   pool.run(pool.workers(), [&](int band, int) {
-    for (int picture = 0; picture < kBatch; ++picture) {
+    for (int i = 0; i < kBatch; ++i) {
       rectify(map, source, out, band_rows(source.rows, band, pool.workers()));
     }
   });

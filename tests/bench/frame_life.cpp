@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One frame's life, from the exposure until it is whole at a receiver, drawn from what a running stereod says
 // of it and from when its rows came here. Has to run on the daemon's machine.
 //
@@ -74,7 +75,7 @@ Life median_of(std::vector<Life> lives) {
 /// Bars along a line of time, 0 at the later exposure.
 class Drawing {
  public:
-  explicit Drawing(double most_ms) : ms_px_(540 / most_ms) {}
+  explicit Drawing(double max_ms) : ms_px_(540 / max_ms) {}
 
   void bar(const std::string& label, const char* color, double from_ms, double to_ms) {
     text(10, y_ + 14, label);
@@ -94,15 +95,15 @@ class Drawing {
     }
     y_ += kHeight + 14;
   }
-  void scale(double most_ms) {
-    const double step = most_ms > 25 ? 5 : most_ms > 8 ? 2 : 1;
-    for (double ms = 0; ms <= most_ms; ms += step) {
+  void scale(double max_ms) {
+    const double step = max_ms > 25 ? 5 : max_ms > 8 ? 2 : 1;
+    for (double ms = 0; ms <= max_ms; ms += step) {
       add("<line x1='%.1f' x2='%.1f' y1='36' y2='%d' stroke='#bbb' stroke-width='0.5'/>", x(ms), x(ms), y_);
       char number[16];
       std::snprintf(number, sizeof number, "%.0f", ms);
       text(x(ms) - 4, y_ + 16, number);
     }
-    text(x(most_ms) - 60, y_ + 32, "ms after the exposure");
+    text(x(max_ms) - 60, y_ + 32, "ms after the exposure");
   }
   void text(double x, double y, const std::string& words) {
     add("<text x='%.1f' y='%.1f'>", x, y);
@@ -138,7 +139,7 @@ std::string draw(const Life& life, const std::string& title) {
   const double whole = std::max(ms(life.whole - exposed), sent);
   Drawing drawing(whole * 1.08);
   drawing.text(10, 22, title + ", frame " + std::to_string(f.frame));
-  drawing.bar("taken over, paired", "#7f8c8d", 0, started);
+  drawing.bar("received, paired", "#7f8c8d", 0, started);
   drawing.bar("rectified and matched, in bands", "#2980b9", started, matched - filtering);
   if (filtering > 0) drawing.bar("speckles removed", "#8e44ad", matched - filtering, matched);
   std::vector<std::pair<double, double>> blocks;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Timing that can be compared: contestants take turns within one run.
 //
 // On shared or clocked-down machines the same program is 1.5 times slower a minute later, so times of two

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The measured settings, for stereod's matcher and for OpenCV's StereoBM.
 #include "tests/bench/matcher_cases.h"
 
 #include <iostream>

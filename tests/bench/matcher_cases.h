@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The settings in which the matcher is measured, and what OpenCV's StereoBM has to do for the same.
 #pragma once
 

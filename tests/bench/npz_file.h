@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // NumPy's file of arrays, as far as one image of floats in it goes.
 #pragma once
 

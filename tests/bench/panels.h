@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Images of disparities side by side, each with two lines of words above it.
 #pragma once
 

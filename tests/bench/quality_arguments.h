@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What depth_quality is asked to do.
 #pragma once
 
@@ -11,10 +12,10 @@
 namespace stereod::bench {
 
 struct QualityArguments {
-  std::vector<std::string> sets;                  ///< empty: all
-  std::vector<std::string> matchers;              ///< empty: all
-  std::optional<MatcherOptions> custom;           ///< the preset made of --base and --set
-  std::optional<std::filesystem::path> pictures;  ///< the directory to write images into
+  std::vector<std::string> sets;                         ///< empty: all
+  std::vector<std::string> matchers;                     ///< empty: all
+  std::optional<MatcherOptions> custom;                  ///< the preset made of --base and --set
+  std::optional<std::filesystem::path> image_directory;  ///< where to write images; none: writes none
 };
 
 /// Takes the command line apart. Prints its own help and ends the program if that is asked for. Throws

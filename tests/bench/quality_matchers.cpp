@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The contestants of depth_quality: stereod's presets and OpenCV's matchers.
 #include "tests/bench/quality_matchers.h"
 
 #include <algorithm>

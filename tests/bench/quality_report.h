@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tables and sentences of depth_quality.
 #pragma once
 
@@ -23,7 +24,7 @@ struct MatcherResult {
   std::vector<SetResult> sets;
 };
 
-/// A line for each set and the mean over the sets; behind the figures, by how much they differ from `bm`'s.
+/// A line for each set and the mean over the sets; with the difference from `bm`.
 void print_table(const MatcherResult& result, const MatcherResult& bm);
 
 /// On how many sets the matcher has lower bad-1 over matched pixels and at least the density of `bm`; and

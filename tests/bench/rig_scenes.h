@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a real rig sees, rectified by our own calibration and matched: there is no truth, only to look at.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loading of the stereo sets with ground truth.
 #include "tests/bench/stereo_sets.h"
 
 #include <algorithm>
@@ -30,7 +32,7 @@ std::optional<double> number_in(const std::string& json, const std::string& key)
 }
 
 cv::Mat read_gray_mat(const fs::path& path) {
-  // As stereo-match and the daemon read it; OpenCV's own reader makes slightly other greys of colors.
+  // As stereo-match and the daemon read it; OpenCV's own reader converts colors to slightly different gray levels.
   const GrayImage gray = read_gray(path);
   cv::Mat copy(gray.height(), gray.width(), CV_8UC1);
   for (int y = 0; y < gray.height(); ++y) std::copy_n(gray.row(y), gray.width(), copy.ptr(y));

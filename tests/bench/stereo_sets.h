@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Stereo pairs whose true disparities are known.
 #pragma once
 

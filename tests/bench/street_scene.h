@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A street as a car or a robot sees it, rendered: there is no street among the sets with ground truth.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Draws what subpixel_sweep found.
 #pragma once
 

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Parts of a pixel against a plane whose disparity is known: our interpolation, a parabola through the same
 // costs, and OpenCV's StereoBM. In the image the thin line is what an unbiased one has. Prints the errors
 // and, with a file name, draws them.
-//   subpixel_sweep [PICTURE.png]
+//   subpixel_sweep [IMAGE.png]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -118,7 +119,7 @@ void print(const SubpixelCurve& curve) {
   std::printf("\n");
 }
 
-void run(const std::string& picture) {
+void run(const std::string& image) {
   std::vector<SubpixelPanel> panels;
   for (const double noise : {0.0, 4.0}) {
     SubpixelSweep sweep;
@@ -134,8 +135,8 @@ void run(const std::string& picture) {
     }
     panels.push_back(panel);
   }
-  if (picture.empty()) return;
-  if (!cv::imwrite(picture, draw_subpixel(panels))) throw std::runtime_error(picture + ": cannot be written");
+  if (image.empty()) return;
+  if (!cv::imwrite(image, draw_subpixel(panels))) throw std::runtime_error(image + ": cannot be written");
 }
 
 }  // namespace
@@ -143,7 +144,7 @@ void run(const std::string& picture) {
 
 int main(int argc, char** argv) {
   try {
-    if (argc > 2) throw std::invalid_argument("usage: subpixel_sweep [PICTURE.png]");
+    if (argc > 2) throw std::invalid_argument("usage: subpixel_sweep [IMAGE.png]");
     stereod::bench::run(argc == 2 ? argv[1] : "");
     return EXIT_SUCCESS;
   } catch (const std::exception& error) {

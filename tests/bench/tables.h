@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Prints measurements in the layout of the thesis' tables.
 #pragma once
 

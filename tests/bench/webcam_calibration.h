@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The lens whose images the benchmarks of rectification move.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the matchers found, for a person to look at.
 #pragma once
 
