@@ -18,7 +18,7 @@
 namespace stereod::bench {
 namespace {
 
-// Images in a row, so many that waking the workers, which may take milliseconds on a busy machine, hardly
+// Images in a row: enough that waking the workers, which may take milliseconds on a busy machine, hardly
 // counts.
 constexpr int kBatch = 400;
 
@@ -59,8 +59,8 @@ void rectify(const RectifyMap& map, const cv::Mat& source, cv::Mat& out, RowRang
   }
 }
 
-/// kBatch images, each worker the same band of all of them: as in the daemon, whose workers are at work
-/// anyway when rows are to be rectified.
+/// Rectifies kBatch images; each worker takes the same band of all of them. In the daemon, too, the workers
+/// are already running when rows are to be rectified.
 void rectify_batch(const RectifyMap& map, const cv::Mat& source, cv::Mat& out, WorkerPool& pool) {
   pool.run(pool.workers(), [&](int band, int) {
     for (int i = 0; i < kBatch; ++i) {
@@ -100,7 +100,7 @@ void measure(const Task& task, int rounds) {
             << difference.total() << "\n";
 }
 
-/// What a camera that gives YUYV, two bytes a pixel, costs.
+/// Measures a camera that delivers YUYV, two bytes a pixel.
 void measure_packed(const cv::Mat& gray, int rounds) {
   const Size size{gray.cols, gray.rows};
   const cv::Mat parts[] = {gray, gray};

@@ -28,7 +28,8 @@ setting, so OpenCV works on (and takes the time for) its XSobel image here. It a
 columns empty and always answers in 1/16 px. Like for like with it are the xsobel columns of the last table.
 )";
 
-/// The thesis' matcher: raw sums of absolute differences, 11×11, 64 disparities, no filter.
+/// Returns the options of the thesis' matcher: raw sums of absolute differences, 11×11, 64 disparities, no
+/// filter.
 MatcherOptions thesis_options(Implementation implementation, Isa isa = Isa::kAuto) {
   MatcherOptions options = matcher_preset("thesis").value();
   options.implementation = implementation;
@@ -36,7 +37,7 @@ MatcherOptions thesis_options(Implementation implementation, Isa isa = Isa::kAut
   return options;
 }
 
-/// A matcher with its threads and the memory for its answer.
+/// A matcher with its threads and the memory for its disparities.
 class OwnMatcher {
  public:
   OwnMatcher(const MatcherOptions& options, const MatPair& pair, int workers)

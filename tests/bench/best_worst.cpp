@@ -37,8 +37,8 @@ Evaluation judge(const QualityMatcher& matcher, const StereoSet& set, const Disp
   return evaluate(found.view(), matcher.units_per_pixel, set.truth.view(), 1);
 }
 
-/// The sets on which the mean of dense's and robust's bad-1 over all known pixels is least, the median, and
-/// greatest.
+/// Returns the sets with the minimum, the median and the maximum of the mean of dense's and robust's bad-1
+/// over all known pixels.
 std::array<const StereoSet*, 3> best_to_worst(const std::vector<StereoSet>& sets) {
   std::vector<std::pair<double, const StereoSet*>> ranked;
   for (const StereoSet& set : sets) {

@@ -2,7 +2,9 @@
 // After how many seconds a running stereod reports that a camera has moved, and what the check costs. The
 // daemon replays pairs of a rig; from one frame on the right images are shifted down by some rows.
 //
-//   calibration_loss_seconds SCENES CALIBRATION [ROWS]     SCENES: a directory with left_NAME.png and right_NAME.png
+//   calibration_loss_seconds SCENES CALIBRATION [ROWS]
+//
+// SCENES: a directory with left_NAME.png and right_NAME.png
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -32,8 +34,8 @@ namespace fs = std::filesystem;
 constexpr const char* kUrl = "udpm://239.255.76.67:17671?ttl=0";
 constexpr int kBefore_s = 22, kAfter_s = 12;
 
-/// Writes the frames of kBefore_s + kAfter_s seconds for replay. In the last kAfter_s seconds the right images
-/// are @p rows rows lower.
+/// Writes the frames of kBefore_s + kAfter_s seconds for replay. In the last kAfter_s seconds the right
+/// images are @p rows rows lower.
 void write_frames(const fs::path& scenes, const fs::path& directory, int rows, int fps) {
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(scenes)) {

@@ -21,7 +21,7 @@
 namespace stereod::bench {
 namespace {
 
-/// Gray levels a pixel of disparity in the images whose squared difference is taken.
+/// Gray levels per pixel of disparity in the images that are compared by squared difference.
 double gray_per_px(int disparities) { return 255.0 / disparities; }
 
 SetResult judge(const QualityMatcher& matcher, const StereoSet& set, int disparities) {
@@ -36,7 +36,7 @@ MatcherResult judge(const QualityMatcher& matcher, const std::vector<StereoSet>&
   return result;
 }
 
-/// BM first.
+/// Returns the contestants, BM first.
 std::vector<QualityMatcher> contestants(const QualityArguments& arguments) {
   std::vector<QualityMatcher> all = {opencv_bm(), opencv_sgbm_3way()};
   for (const char* preset : {"thesis", "fast", "robust"}) {
@@ -75,7 +75,7 @@ void print_results(const std::vector<QualityMatcher>& matchers, const std::vecto
   }
 }
 
-/// The comparison of the thesis' section 3.6.
+/// Prints the comparison of the thesis' section 3.6.
 void print_thesis_comparison(const std::vector<StereoSet>& sets) {
   const auto tsukuba = std::find_if(sets.begin(), sets.end(),
                                     [](const StereoSet& set) { return set.name == "mb2001_tsukuba"; });
@@ -94,7 +94,7 @@ void print_thesis_comparison(const std::vector<StereoSet>& sets) {
   print_squared_differences(results);
 }
 
-/// Left image, ground truth, BM and, where they take part, robust and custom.
+/// Writes an image for each set: left image, ground truth, BM and, where they take part, robust and custom.
 void write_images(const std::filesystem::path& directory, const std::vector<QualityMatcher>& matchers,
                   const std::vector<StereoSet>& sets) {
   std::filesystem::create_directories(directory);

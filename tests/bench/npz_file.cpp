@@ -24,7 +24,7 @@ std::size_t number_at(const Bytes& bytes, std::size_t place) {
   return place + 1 < bytes.size() ? bytes[place] + std::size_t{256} * bytes[place + 1] : 0;
 }
 
-/// The first file of a ZIP archive; empty if that is not deflated or is damaged. @p max_bytes limits its size.
+/// Returns the first file of a ZIP archive, at most @p max_bytes; empty if it is damaged or not deflated.
 Bytes inflate_first(Bytes zip, std::size_t max_bytes) {
   const std::size_t start = 30 + number_at(zip, 26) + number_at(zip, 28);
   constexpr std::size_t kDeflated = 8;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line of depth_quality.
+// The options of depth_quality.
 #include "tests/bench/quality_arguments.h"
 
 #include <CLI/CLI.hpp>
@@ -36,7 +36,7 @@ int to_number(const std::string& setting, const std::string& value) {
   throw std::runtime_error("--set " + setting + ": the value must be a whole number");
 }
 
-/// `setting` is key=value.
+/// Applies a @p setting, key=value.
 void apply(MatcherOptions& options, const std::string& setting) {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos) throw std::runtime_error("--set " + setting + ": must be key=value");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What depth_quality is asked to do.
+// The command line of depth_quality.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ struct QualityArguments {
   std::optional<std::filesystem::path> image_directory;  ///< where to write images; none: writes none
 };
 
-/// Takes the command line apart. Prints its own help and ends the program if that is asked for. Throws
-/// std::runtime_error with one sentence.
+/// Parses the command line. --help prints the help and ends the program. Throws std::runtime_error with one
+/// sentence.
 QualityArguments parse_quality_arguments(int argc, const char* const* argv);
 
 }  // namespace stereod::bench

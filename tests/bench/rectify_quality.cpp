@@ -23,7 +23,7 @@ using tools::evaluate;
 using tools::Evaluation;
 namespace {
 
-/// A webcam whose rectified image is the given one, except for a margin that the lens does not reach.
+/// A webcam whose rectified image is the given one, except for a margin outside the view of the lens.
 CameraCalibration webcam(Size size, bool left) {
   CameraCalibration calibration;
   CameraModel& camera = calibration.camera;
@@ -42,7 +42,7 @@ CameraCalibration webcam(Size size, bool left) {
   return calibration;
 }
 
-/// What the camera sees where the rectified camera would see `rectified`.
+/// Returns the camera image that belongs to the rectified image @p rectified.
 cv::Mat seen_by(const CameraCalibration& camera, const cv::Mat& rectified) {
   cv::Mat map(rectified.size(), CV_32FC2);
   for (int y = 0; y < map.rows; ++y) {

@@ -39,7 +39,7 @@ View rectified(const CameraCalibration& camera, const std::filesystem::path& fil
   return view;
 }
 
-/// As the daemon matches: what the cameras do not see is known.
+/// Matches as the daemon does: with masks of the pixels outside the cameras' views.
 DisparityImage matched(const MatcherOptions& options, const View& left, const View& right) {
   WorkerPool pool(1);
   DisparityImage found(view_of(left.image).size());
@@ -49,9 +49,9 @@ DisparityImage matched(const MatcherOptions& options, const View& left, const Vi
   return found;
 }
 
-/// For the image: filled disparities as if they were measured, all in whole pixels, which makes the file
-/// little more than half as large. What the camera does not see is taken out of everyone's answer; of the
-/// rest, the share that is answered.
+/// Prepares @p found for drawing and returns the share of matched pixels [%]: filled ones count as measured,
+/// and all are rounded to whole pixels, which nearly halves the file. Pixels outside the camera's view are
+/// removed from every result and from the share.
 double shown(DisparityImage& found, const ValidityMask& mask) {
   int seen = 0, answered = 0;
   for (int y = 0; y < found.height(); ++y) {

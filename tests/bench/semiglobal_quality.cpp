@@ -108,8 +108,8 @@ constexpr std::array<Disturbance, 6> kDisturbances{{{"none", as_they_are},
 
 // --- parts of images
 
-/// Where something nearer hides from the right camera what the left one sees: another pixel of the row is the
-/// right pixel's that this one would have.
+/// Marks occluded pixels, which a nearer object hides from the right camera: a pixel of the row with a larger
+/// disparity maps to the same right pixel.
 cv::Mat1b hidden(const StereoSet& set) {
   cv::Mat1b result(set.truth.height(), set.truth.width(), std::uint8_t{0});
   for (int y = 0; y < result.rows; ++y) {
@@ -132,7 +132,7 @@ cv::Mat1b hidden(const StereoSet& set) {
   return result;
 }
 
-/// Of the pixels where `part` is `wanted`, in percent.
+/// Results over the pixels of one part of the image [%].
 struct PartStats {
   double bad = 0;       ///< off by more than 1 px, or unmatched
   double too_near = 0;  ///< nearer by more than 1 px

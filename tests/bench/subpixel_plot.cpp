@@ -27,7 +27,7 @@ void write(cv::Mat& image, const std::string& text, cv::Point at, const cv::Scal
   cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.42, color, 1, cv::LINE_AA);
 }
 
-/// Axes over [0, 1) px and [low, high], and where a value lies in them.
+/// Axes over [0, 1) px and [low, high], and the position of a value between them.
 class Diagram {
  public:
   Diagram(cv::Mat& image, cv::Point corner, double low, double high)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws what subpixel_sweep found.
+// Draws the results of subpixel_sweep.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -20,8 +20,8 @@ struct SubpixelPanel {
   std::vector<SubpixelCurve> curves;  ///< at most three
 };
 
-/// Two diagrams for each panel, side by side: the mean error and the share of the answers, by the part of a
-/// pixel.
+/// Draws two diagrams for each panel, side by side: the mean error and the share of the answers, by the part
+/// of a pixel.
 cv::Mat draw_subpixel(const std::vector<SubpixelPanel>& panels);
 
 }  // namespace stereod::bench

@@ -78,13 +78,13 @@ int cost_of(const GrayImage& left, const GrayImage& right, int x, int y, int dis
   return cost;
 }
 
-/// Our whole numbers and costs, but the vertex of the parabola through the three costs.
+/// Uses our whole disparities and costs with the vertex of the parabola through the three costs.
 DisparityImage match_parabola(const StereoPair& pair) {
   const GrayImage left = gradients_of(pair.left);
   const GrayImage right = gradients_of(pair.right);
   DisparityImage found(left.size());
   for (int y = 0; y < found.height(); ++y) std::fill_n(found.row(y), found.width(), kInvalidDisparity);
-  // The whole number nearest to ours may be its neighbor; within one of it lies the least cost.
+  // The whole number nearest to ours may be its neighbor: the minimum cost is at most one away.
   const DisparityImage ours = match_ours(pair);
   const int radius = kWindow / 2;
   for (int y = radius; y < found.height() - radius; ++y) {
