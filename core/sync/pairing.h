@@ -56,7 +56,7 @@ class Pairing {
     } else {
       if (other) drop(opposite(side));  // later frames of this camera are even later
       if (own) drop(side);
-      own.emplace(Stamped{std::move(frame), time_ns});
+      own.emplace(TimedFrame{std::move(frame), time_ns});
     }
   }
 
@@ -82,11 +82,11 @@ class Pairing {
   const PairingCounts& counts() const { return counts_; }
 
  private:
-  struct Stamped {
+  struct TimedFrame {
     Frame frame;
     std::int64_t time_ns;
   };
-  using Waiting = std::optional<Stamped>;
+  using Waiting = std::optional<TimedFrame>;
 
   static std::int64_t distance(std::int64_t a, std::int64_t b) { return a > b ? a - b : b - a; }
   Waiting& waiting(Side side) { return side == Side::kLeft ? left_ : right_; }
@@ -102,7 +102,7 @@ class Pairing {
   }
 
   void make_pair(Side side, Frame frame, std::int64_t time_ns) {
-    Stamped partner = std::move(*waiting(opposite(side)));
+    TimedFrame partner = std::move(*waiting(opposite(side)));
     waiting(opposite(side)).reset();
     if (ready_) ++counts_.pairs_superseded;
     ++counts_.pairs;

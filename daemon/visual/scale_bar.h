@@ -11,7 +11,7 @@
 
 namespace stereod {
 
-/// A labelled position on the bar; nearness 0 is the lower end, 1 the upper end.
+/// A labeled position on the bar; nearness 0 is the lower end, 1 the upper end.
 struct ScaleTick {
   double nearness = 0;
   std::string label;

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loading of the images to measure on.
 #include "tests/bench/bench_images.h"
 
 #include <cstdlib>

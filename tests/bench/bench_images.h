@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The images that are measured on, and the bridge to OpenCV.
 #pragma once
 
@@ -13,20 +14,20 @@ struct MatPair {
   cv::Mat left, right;
 };
 
-/// Where the data sets are: STEREO_DATASETS, or shared/datasets beside the source tree.
+/// Returns the directory of the data sets: STEREO_DATASETS, or shared/datasets beside the source tree.
 std::filesystem::path datasets();
 
-/// The thesis' images: Tsukuba, 384×288, gray. Nothing if the data set is not there.
+/// Returns the thesis' images: Tsukuba, 384×288, gray; empty if the data set is missing.
 std::optional<MatPair> load_tsukuba();
 
-/// Aloe (Debian's package opencv-doc), scaled to `size`, 24-bit color. Nothing if the package is not
+/// Returns Aloe (Debian's package opencv-doc), scaled to @p size, 24-bit color; empty if the package is not
 /// installed.
 std::optional<MatPair> load_aloe(cv::Size size);
 std::optional<MatPair> load_aloe_vga();  ///< 640×480
 
 cv::Mat gray_of(const cv::Mat& color);
 
-/// The same memory in our words. A gray or 24-bit image; `mat` stays the owner.
+/// Returns a view of @p mat, a gray or 24-bit image, which keeps the ownership.
 GrayView view_of(const cv::Mat& mat);
 
 }  // namespace stereod::bench

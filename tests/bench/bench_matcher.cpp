@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The matcher beside OpenCV's StereoBM: every setting, instruction set and number of threads.
 //
-// Usage: bench_matcher [rounds]. In each row all contestants take turns within one run; a factor is how many
-// times as fast as OpenCV that is, best time against best time. Give it an idle machine, or a high priority:
-// with something else on the cores, the best of few rounds is still not a good one.
+// Usage: bench_matcher [rounds]. In each row all contestants take turns within one run; a factor is the speed
+// relative to OpenCV, by the best times. Run it on an idle machine or with a high priority: beside other
+// programs even the best of a few rounds is too slow.
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -21,7 +22,7 @@ namespace {
 
 constexpr const char* kOpenCv = "OpenCV";
 
-/// A matcher with its threads and the memory for its answer.
+/// A matcher with its threads and the memory for its disparities.
 class OwnMatcher {
  public:
   OwnMatcher(const MatcherCase& the_case, const MatcherOptions& options, int workers)
@@ -101,7 +102,7 @@ void measure_against_opencv(const std::vector<MatcherCase>& cases, int workers, 
   }
 }
 
-/// How long each takes, times as long as the first.
+/// Prints the time of each contestant relative to the first.
 void measure_among_each_other(const std::string& title, const std::vector<MatcherCase>& cases, int rounds) {
   if (cases.empty()) return;
   Cells headings;
@@ -122,7 +123,7 @@ void measure_among_each_other(const std::string& title, const std::vector<Matche
   }
 }
 
-/// How much faster two threads are, and what the mode for small caches costs here.
+/// Prints the speedup of two threads and the cost of the mode for small caches.
 void measure_modes(const MatcherCase& the_case, int rounds) {
   std::cout << "\n";
   print_row(the_case.name, {"1 thread", "2 threads", "small caches"});
@@ -142,7 +143,7 @@ void measure_modes(const MatcherCase& the_case, int rounds) {
   }
 }
 
-/// The semi-global matcher's presets; the block of StereoBM is 11×11, and its tests are off.
+/// Measures the semi-global matcher's presets beside StereoBM with a block of 11×11 and its tests off.
 void measure_semiglobal(const std::vector<MatcherCase>& cases, int rounds) {
   constexpr const char* kSgbm = "SGBM 3WAY";
   for (const char* preset : {"dense", "fine"}) {
@@ -178,7 +179,7 @@ void measure_semiglobal(const std::vector<MatcherCase>& cases, int rounds) {
   }
 }
 
-/// Bytes of scratch memory of a worker.
+/// Returns the scratch memory of a worker [bytes].
 void print_scratch() {
   std::cout << "\nScratch memory at 640x480, 64 disparities:";
   for (const char* preset : {"robust", "dense", "fine", "fast"}) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rectification beside OpenCV's: the table of runs and cv::remap on one image of 640×480.
 #include <cstdlib>
 #include <iostream>
@@ -17,7 +18,7 @@
 namespace stereod::bench {
 namespace {
 
-// Images in a row, so many that waking the workers, which may take milliseconds on a busy machine, hardly
+// Images in a row: enough that waking the workers, which may take milliseconds on a busy machine, hardly
 // counts.
 constexpr int kBatch = 400;
 
@@ -58,11 +59,11 @@ void rectify(const RectifyMap& map, const cv::Mat& source, cv::Mat& out, RowRang
   }
 }
 
-/// kBatch images, each worker the same band of all of them: as in the daemon, whose workers are at work
-/// anyway when rows are to be rectified.
+/// Rectifies kBatch images; each worker takes the same band of all of them. In the daemon, too, the workers
+/// are already running when rows are to be rectified.
 void rectify_batch(const RectifyMap& map, const cv::Mat& source, cv::Mat& out, WorkerPool& pool) {
   pool.run(pool.workers(), [&](int band, int) {
-    for (int picture = 0; picture < kBatch; ++picture) {
+    for (int i = 0; i < kBatch; ++i) {
       rectify(map, source, out, band_rows(source.rows, band, pool.workers()));
     }
   });
@@ -99,7 +100,7 @@ void measure(const Task& task, int rounds) {
             << difference.total() << "\n";
 }
 
-/// What a camera that gives YUYV, two bytes a pixel, costs.
+/// Measures a camera that delivers YUYV, two bytes a pixel.
 void measure_packed(const cv::Mat& gray, int rounds) {
   const Size size{gray.cols, gray.rows};
   const cv::Mat parts[] = {gray, gray};

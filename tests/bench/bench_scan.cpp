@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the obstacle scan costs beside the matching it follows: times of one thread on the rendered scene, in
-// turn, the least of many.
+// turn, the minimum of many.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

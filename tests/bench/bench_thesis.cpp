@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The thesis' tables, measured on this machine: matching (tables 3.1, 3.2, 3.4, 3.5 and figure 3.13) and
 // remapping (tables 4.2 and 4.3), each followed by the numbers that the thesis gives.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The thesis' tables of matching.
 #include <algorithm>
 #include <iostream>
 #include <limits>
@@ -22,11 +24,12 @@ constexpr const char* kOpenCv = "OpenCV BM";
 constexpr const char* kConditions =
     R"(Own: raw gray values, whole pixels, no test, no filter, as in the thesis. OpenCV's StereoBM: texture,
 uniqueness, left-right and speckle tests off. The thesis switched its prefilter off too; there is no such
-setting, so OpenCV works on (and takes the time for) its XSobel picture here. It also leaves the left 64
+setting, so OpenCV works on (and takes the time for) its XSobel image here. It also leaves the left 64
 columns empty and always answers in 1/16 px. Like for like with it are the xsobel columns of the last table.
 )";
 
-/// The thesis' matcher: raw sums of absolute differences, 11×11, 64 disparities, no filter.
+/// Returns the options of the thesis' matcher: raw sums of absolute differences, 11×11, 64 disparities, no
+/// filter.
 MatcherOptions thesis_options(Implementation implementation, Isa isa = Isa::kAuto) {
   MatcherOptions options = matcher_preset("thesis").value();
   options.implementation = implementation;
@@ -34,7 +37,7 @@ MatcherOptions thesis_options(Implementation implementation, Isa isa = Isa::kAut
   return options;
 }
 
-/// A matcher with its threads and the memory for its answer.
+/// A matcher with its threads and the memory for its disparities.
 class OwnMatcher {
  public:
   OwnMatcher(const MatcherOptions& options, const MatPair& pair, int workers)

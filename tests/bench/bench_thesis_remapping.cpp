@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The thesis' tables of remapping.
 #include <iostream>
 #include <limits>
 #include <memory>

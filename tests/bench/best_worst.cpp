@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Draws the sets on which the presets do best, middling and worst, by bad-1 over all known pixels: ground
 // truth, OpenCV's BM and SGBM 3WAY, fast, dense and robust, each with its stats. For the documentation.
-//   best_worst PICTURE.png
-// Or scenes of a rig, FOLDER/left_SCENE.png and right_SCENE.png, by its calibration (rig_scenes.h):
-//   best_worst PICTURE.png CALIBRATION.yaml FOLDER SCENE...
+//   best_worst IMAGE.png
+// Or scenes of a rig, DIRECTORY/left_SCENE.png and right_SCENE.png, by its calibration (rig_scenes.h):
+//   best_worst IMAGE.png CALIBRATION.yaml DIRECTORY SCENE...
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,8 +37,8 @@ Evaluation judge(const QualityMatcher& matcher, const StereoSet& set, const Disp
   return evaluate(found.view(), matcher.units_per_pixel, set.truth.view(), 1);
 }
 
-/// The sets on which the mean of dense's and robust's bad-1 over all known pixels is least, the median, and
-/// greatest.
+/// Returns the sets with the minimum, the median and the maximum of the mean of dense's and robust's bad-1
+/// over all known pixels.
 std::array<const StereoSet*, 3> best_to_worst(const std::vector<StereoSet>& sets) {
   std::vector<std::pair<double, const StereoSet*>> ranked;
   for (const StereoSet& set : sets) {
@@ -103,7 +104,7 @@ int main(int argc, char** argv) {
     } else if (argc > 4) {
       write_rows(argv[1], rig_scene_rows(argv[2], argv[3], {argv + 4, argv + argc}));
     } else {
-      throw std::invalid_argument("usage: best_worst PICTURE.png [CALIBRATION.yaml FOLDER SCENE...]");
+      throw std::invalid_argument("usage: best_worst IMAGE.png [CALIBRATION.yaml DIRECTORY SCENE...]");
     }
     return EXIT_SUCCESS;
   } catch (const std::exception& error) {

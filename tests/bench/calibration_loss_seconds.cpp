@@ -1,7 +1,10 @@
-// After how many seconds a running stereod names a camera that was knocked, and what looking for it costs: it
-// replays pairs of a rig, and from one frame on the right camera's lie some rows lower.
+// SPDX-License-Identifier: BSD-3-Clause
+// After how many seconds a running stereod reports that a camera has moved, and what the check costs. The
+// daemon replays pairs of a rig; from one frame on the right images are shifted down by some rows.
 //
-//   calibration_loss_seconds SCENES CALIBRATION [ROWS]     SCENES: a directory with left_NAME.png and right_NAME.png
+//   calibration_loss_seconds SCENES CALIBRATION [ROWS]
+//
+// SCENES: a directory with left_NAME.png and right_NAME.png
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -31,7 +34,8 @@ namespace fs = std::filesystem;
 constexpr const char* kUrl = "udpm://239.255.76.67:17671?ttl=0";
 constexpr int kBefore_s = 22, kAfter_s = 12;
 
-/// A directory to be replayed: as many frames as the seconds have, of which the later ones are knocked.
+/// Writes the frames of kBefore_s + kAfter_s seconds for replay. In the last kAfter_s seconds the right
+/// images are @p rows rows lower.
 void write_frames(const fs::path& scenes, const fs::path& directory, int rows, int fps) {
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(scenes)) {
@@ -63,33 +67,33 @@ void measure(const fs::path& scenes, const fs::path& calibration, int rows, int 
   std::ofstream(directory / "stereod.yaml")
       << "cameras: {source: replay, fps: " << fps << ", replay: {directory: frames, loop: false}}\n"
       << "calibration: " << calibration.string() << "\nmatcher: {preset: " << preset << "}\n"
-      << "lcm: {url: \"" << kUrl << "\", prefix: KNOCK}\n";
+      << "lcm: {url: \"" << kUrl << "\", prefix: MOVED}\n";
   LcmReceiver receiver(kUrl);
   status_t status{};
-  receiver.subscribe("KNOCK_STATUS",
+  receiver.subscribe("MOVED_STATUS",
                      [&](std::span<const std::byte> bytes) { decode_message(bytes, status); });
   ChildProgram stereod(fs::path(STEREOD_BIN_DIR) / "stereod",
                        {"--config", (directory / "stereod.yaml").string()}, directory.path());
-  double noticed_s = -1, error_before = 0, points_before = 0, cost = 0;
+  double reported_s = -1, error_before = 0, points_before = 0, cost = 0;
   bool false_alarm = false;
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(kBefore_s + kAfter_s + 20);
-  while (status.left.frames < (kBefore_s + kAfter_s) * fps - 2 && noticed_s < 0 &&
+  while (status.left.frames < (kBefore_s + kAfter_s) * fps - 2 && reported_s < 0 &&
          std::chrono::steady_clock::now() < deadline) {
     if (!receiver.receive(std::chrono::milliseconds(100))) continue;
-    const bool knocked = status.left.frames > kBefore_s * fps;
-    if (!knocked) {
+    const bool moved = status.left.frames > kBefore_s * fps;
+    if (!moved) {
       error_before = status.epipolar_error_px;
       points_before = static_cast<double>(status.epipolar_points);
       cost = status.epipolar_probe_percent;
       false_alarm = false_alarm || status.reason.find("the cameras have moved") != std::string::npos;
     } else if (status.reason.find("the cameras have moved") != std::string::npos) {
-      noticed_s = static_cast<double>(status.left.frames) / fps - kBefore_s;
+      reported_s = static_cast<double>(status.left.frames) / fps - kBefore_s;
     }
   }
   stereod.send(SIGTERM);
   const ProgramRun run = stereod.wait();
-  if (status.utime == 0) throw std::runtime_error("stereod said nothing: " + run.err);
-  const std::string after = noticed_s < 0 ? "not in 12 s" : std::to_string(noticed_s).substr(0, 4) + " s";
+  if (status.utime == 0) throw std::runtime_error("stereod sent no status: " + run.err);
+  const std::string after = reported_s < 0 ? "not in 12 s" : std::to_string(reported_s).substr(0, 4) + " s";
   std::printf("| %d | %-7s | %-11s | %.2f px from %.0f points | %.1f %% | %s |\n", fps, preset, after.c_str(),
               error_before, points_before, cost, false_alarm ? "FALSE ALARM before" : "");
   std::fflush(stdout);
@@ -102,7 +106,7 @@ int run(int argc, char** argv) {
   }
   const int rows = argc > 3 ? std::atoi(argv[3]) : 4;
   std::printf(
-      "%d rows lower\n| fps | preset | named after | before the knock | cost | "
+      "%d rows lower\n| fps | preset | reported after | before the move | cost | "
       "|\n|---|---|---|---|---|---|\n",
       rows);
   for (const int fps : {30, 15}) {

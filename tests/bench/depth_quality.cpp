@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How good the depth is: our presets and OpenCV's matchers on images with ground truth.
 //
 // bad-1 is the share of pixels that are off by more than 1 px, over all whose truth is known (an unmatched
@@ -12,15 +13,15 @@
 #include <vector>
 
 #include "tests/bench/quality_arguments.h"
+#include "tests/bench/quality_images.h"
 #include "tests/bench/quality_matchers.h"
-#include "tests/bench/quality_pictures.h"
 #include "tests/bench/quality_report.h"
 #include "tests/bench/stereo_sets.h"
 
 namespace stereod::bench {
 namespace {
 
-/// Gray levels a pixel of disparity in the images whose squared difference is taken.
+/// Gray levels per pixel of disparity in the images that are compared by squared difference.
 double gray_per_px(int disparities) { return 255.0 / disparities; }
 
 SetResult judge(const QualityMatcher& matcher, const StereoSet& set, int disparities) {
@@ -35,7 +36,7 @@ MatcherResult judge(const QualityMatcher& matcher, const std::vector<StereoSet>&
   return result;
 }
 
-/// BM first.
+/// Returns the contestants, BM first.
 std::vector<QualityMatcher> contestants(const QualityArguments& arguments) {
   std::vector<QualityMatcher> all = {opencv_bm(), opencv_sgbm_3way()};
   for (const char* preset : {"thesis", "fast", "robust"}) {
@@ -74,7 +75,7 @@ void print_results(const std::vector<QualityMatcher>& matchers, const std::vecto
   }
 }
 
-/// The comparison of the thesis' section 3.6.
+/// Prints the comparison of the thesis' section 3.6.
 void print_thesis_comparison(const std::vector<StereoSet>& sets) {
   const auto tsukuba = std::find_if(sets.begin(), sets.end(),
                                     [](const StereoSet& set) { return set.name == "mb2001_tsukuba"; });
@@ -93,9 +94,9 @@ void print_thesis_comparison(const std::vector<StereoSet>& sets) {
   print_squared_differences(results);
 }
 
-/// Left image, ground truth, BM and, where they take part, robust and custom.
-void write_pictures(const std::filesystem::path& directory, const std::vector<QualityMatcher>& matchers,
-                    const std::vector<StereoSet>& sets) {
+/// Writes an image for each set: left image, ground truth, BM and, where they take part, robust and custom.
+void write_images(const std::filesystem::path& directory, const std::vector<QualityMatcher>& matchers,
+                  const std::vector<StereoSet>& sets) {
   std::filesystem::create_directories(directory);
   for (const StereoSet& set : sets) {
     std::vector<FoundDisparity> found;
@@ -105,7 +106,7 @@ void write_pictures(const std::filesystem::path& directory, const std::vector<Qu
     }
     write_comparison(directory / (set.name + ".png"), set, found);
   }
-  std::cout << "\nPictures are in " << directory.string()
+  std::cout << "\nImages are in " << directory.string()
             << ": left image, ground truth, BM, robust (then custom).\n";
 }
 
@@ -118,7 +119,7 @@ int run(const QualityArguments& arguments) {
             << " sets; bad-1: off by more than 1 px, % of all known pixels and of the matched ones.\n";
   print_results(matchers, found.sets);
   print_thesis_comparison(found.sets);
-  if (arguments.pictures) write_pictures(*arguments.pictures, matchers, found.sets);
+  if (arguments.image_directory) write_images(*arguments.image_directory, matchers, found.sets);
   return 0;
 }
 

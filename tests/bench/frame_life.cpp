@@ -1,5 +1,6 @@
-// One frame's life, from the exposure until it is whole at a receiver, drawn from what a running stereod says
-// of it and from when its rows came here. Has to run on the daemon's machine.
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws the life of one frame, from the exposure until a receiver has all of it: from the times in the
+// messages of a running stereod and the arrival times of the rows. Must run on the daemon's machine.
 //
 //   frame_life OUT.svg TITLE [PREFIX [FRAMES]]
 #include <algorithm>
@@ -20,7 +21,7 @@
 namespace stereod {
 namespace {
 
-/// A frame and when each block of its rows came, µs since the Unix epoch.
+/// A frame and the arrival time of each block of its rows [µs since the Unix epoch].
 struct Life {
   frame_t summary{};
   std::vector<std::int64_t> came;
@@ -56,14 +57,13 @@ std::vector<Life> listen(const std::string& prefix, std::size_t count) {
   });
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (lives.size() < count) {
-    if (std::chrono::steady_clock::now() > deadline)
-      throw std::runtime_error("no frames come on " + prefix + ".");
+    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("no frames on " + prefix);
     client.handle(100);
   }
   return lives;
 }
 
-/// The frame that took as long as half of them do not.
+/// Returns the frame of median latency.
 Life median_of(std::vector<Life> lives) {
   const auto middle = lives.begin() + static_cast<std::ptrdiff_t>(lives.size() / 2);
   std::nth_element(lives.begin(), middle, lives.end(),
@@ -71,10 +71,10 @@ Life median_of(std::vector<Life> lives) {
   return *middle;
 }
 
-/// Bars along a line of time, 0 at the later exposure.
+/// Bars along a time axis, 0 at the later exposure.
 class Drawing {
  public:
-  explicit Drawing(double most_ms) : ms_px_(540 / most_ms) {}
+  explicit Drawing(double max_ms) : ms_px_(540 / max_ms) {}
 
   void bar(const std::string& label, const char* color, double from_ms, double to_ms) {
     text(10, y_ + 14, label);
@@ -85,7 +85,7 @@ class Drawing {
     text(x(to_ms) + 5, y_ + 14, span);
     y_ += 26;
   }
-  /// Ticks, as high in the lane as `heights`, 0 to 1, say from its top.
+  /// Draws ticks at heights of 0 (top of the lane) to 1 (bottom).
   void ticks(const std::string& label, const std::vector<std::pair<double, double>>& times_and_heights) {
     constexpr int kHeight = 60;
     text(10, y_ + 14, label);
@@ -94,15 +94,15 @@ class Drawing {
     }
     y_ += kHeight + 14;
   }
-  void scale(double most_ms) {
-    const double step = most_ms > 25 ? 5 : most_ms > 8 ? 2 : 1;
-    for (double ms = 0; ms <= most_ms; ms += step) {
+  void scale(double max_ms) {
+    const double step = max_ms > 25 ? 5 : max_ms > 8 ? 2 : 1;
+    for (double ms = 0; ms <= max_ms; ms += step) {
       add("<line x1='%.1f' x2='%.1f' y1='36' y2='%d' stroke='#bbb' stroke-width='0.5'/>", x(ms), x(ms), y_);
       char number[16];
       std::snprintf(number, sizeof number, "%.0f", ms);
       text(x(ms) - 4, y_ + 16, number);
     }
-    text(x(most_ms) - 60, y_ + 32, "ms after the exposure");
+    text(x(max_ms) - 60, y_ + 32, "ms after the exposure");
   }
   void text(double x, double y, const std::string& words) {
     add("<text x='%.1f' y='%.1f'>", x, y);
@@ -138,7 +138,7 @@ std::string draw(const Life& life, const std::string& title) {
   const double whole = std::max(ms(life.whole - exposed), sent);
   Drawing drawing(whole * 1.08);
   drawing.text(10, 22, title + ", frame " + std::to_string(f.frame));
-  drawing.bar("taken over, paired", "#7f8c8d", 0, started);
+  drawing.bar("received, paired", "#7f8c8d", 0, started);
   drawing.bar("rectified and matched, in bands", "#2980b9", started, matched - filtering);
   if (filtering > 0) drawing.bar("speckles removed", "#8e44ad", matched - filtering, matched);
   std::vector<std::pair<double, double>> blocks;
@@ -161,7 +161,7 @@ int run(int argc, char** argv) {
   const Life life = median_of(listen(argc > 3 ? argv[3] : "STEREO", static_cast<std::size_t>(frames)));
   std::ofstream file(argv[1]);
   file << draw(life, argv[2]);
-  if (!file.flush()) throw std::runtime_error(std::string(argv[1]) + " cannot be written.");
+  if (!file.flush()) throw std::runtime_error(std::string(argv[1]) + " cannot be written");
   const frame_t& f = life.summary;
   std::printf("%s: start %.2f, rectify %.2f, match %.2f, filter %.2f, publish %.2f, sent %.2f ms\n", argv[2],
               f.capture_to_start_us / 1e3, f.rectify_us / 1e3, f.match_us / 1e3, f.filter_us / 1e3,

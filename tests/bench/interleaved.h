@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Timing that can be compared: contestants take turns within one run.
 //
 // On shared or clocked-down machines the same program is 1.5 times slower a minute later, so times of two
@@ -21,13 +22,13 @@
 
 namespace stereod::bench {
 
-/// Milliseconds a call took.
+/// Times of one call [ms].
 struct Timing {
   double best = 0;
   double median = 0;
 };
 
-/// What a run has measured. Asking for a name that did not take part throws std::out_of_range.
+/// The times of one run. An unknown name throws std::out_of_range.
 class InterleavedResults {
  public:
   Timing of(const std::string& name) const {
@@ -38,7 +39,7 @@ class InterleavedResults {
     return {*std::min_element(times.begin(), times.end()), median(times)};
   }
 
-  /// How many times as long as `other` a call of `name` takes.
+  /// Returns the time of a call of @p name divided by that of @p other.
   double ratio(const std::string& name, const std::string& other) const {
     const std::vector<double>& a = turns_.at(name);
     const std::vector<double>& b = turns_.at(other);
@@ -63,8 +64,8 @@ class InterleavedResults {
 /// The contestants of one run.
 class InterleavedRun {
  public:
-  /// `work` is one call. `at_most` limits the turns of a contestant that takes long; the first round is for
-  /// all.
+  /// Adds a contestant. @p work is one call; @p at_most limits the turns of a slow contestant, which always
+  /// takes part in the first round.
   void add(const std::string& name, std::function<void()> work,
            int at_most = std::numeric_limits<int>::max()) {
     for (const Contestant& contestant : contestants_) {
@@ -73,9 +74,9 @@ class InterleavedRun {
     contestants_.push_back({name, std::move(work), std::max(1, at_most)});
   }
 
-  /// Gives every contestant a turn a round. A turn is as many calls as fit into 30 ms, so that the first one,
-  /// whose memory the one before has driven out of the caches, weighs little; one call before the first round
-  /// warms up and tells how many that are.
+  /// Gives every contestant one turn a round. A turn is as many calls as fit into 30 ms, so that its first
+  /// call, which finds cold caches, has little weight. One call before the first round warms up and
+  /// determines this number.
   InterleavedResults run(int rounds) const {
     InterleavedResults results;
     std::map<std::string, int> calls;

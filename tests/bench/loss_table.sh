@@ -4,9 +4,9 @@
 # buffers, and several rows a message. Prints two tables for docs/loss.md and docs/latency.md. The stereod of the build
 # directory renders its scene at 640×480, 30 images a second; the consumers are stereo-tap check. Wants an idle machine.
 #
-#   loss_table.sh FOLDER-OF-PROGRAMS [SECONDS-FOR-EACH]
+#   loss_table.sh DIRECTORY-OF-PROGRAMS [SECONDS-FOR-EACH]
 set -euo pipefail
-bin=$(realpath "${1:?loss_table.sh FOLDER-OF-PROGRAMS [SECONDS-FOR-EACH]}")
+bin=$(realpath "${1:?loss_table.sh DIRECTORY-OF-PROGRAMS [SECONDS-FOR-EACH]}")
 seconds=${2:-5}
 here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 if [[ ${3:-} != --inside ]]; then
@@ -23,7 +23,7 @@ clean_up() {
 }
 trap clean_up EXIT
 
-# start ROWS: a daemon with so many rows a message.
+# start ROWS: starts a daemon that sends ROWS rows a message.
 start() {
   printf 'cameras: {source: synthetic, fps: 30}\nlcm: {url: "%s", rows_per_message: %s}\n' "$url" "$1" >"$scratch/stereod.yaml"
   "$bin/stereod" --config "$scratch/stereod.yaml" 2>"$scratch/stereod.err" &

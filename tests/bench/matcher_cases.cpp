@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The measured settings, for stereod's matcher and for OpenCV's StereoBM.
 #include "tests/bench/matcher_cases.h"
 
 #include <iostream>
@@ -5,7 +7,7 @@
 namespace stereod::bench {
 namespace {
 
-/// XSobel with OpenCV's cap, no test, no filter, whole pixels.
+/// Returns options for XSobel with OpenCV's cap, no test, no filter, whole pixels.
 MatcherOptions plain(int disparities, int window) {
   MatcherOptions options;
   options.disparities = disparities;
@@ -24,7 +26,7 @@ MatcherOptions without_prefilter(MatcherOptions options) {
   return options;
 }
 
-/// All of OpenCV's tests, at usual values.
+/// Returns options with all of OpenCV's tests at usual values.
 MatcherOptions with_filters(MatcherOptions options) {
   options.subpixel = true;
   options.texture_threshold = 10;

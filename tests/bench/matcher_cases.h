@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The settings in which the matcher is measured, and what OpenCV's StereoBM has to do for the same.
 #pragma once
 
@@ -16,18 +17,19 @@ struct MatcherCase {
   MatcherOptions options;
 };
 
-/// Those of which the images are here; says on standard error which are not.
+/// Returns the cases whose images are available; prints the others on standard error.
 std::vector<MatcherCase> speed_cases();
 
-/// Sizes and disparities for the semi-global matcher; OpenCV's StereoBM is to take them with a window of 11.
+/// Returns sizes and disparities for the semi-global matcher; OpenCV's StereoBM takes them with a window of
+/// 11.
 std::vector<MatcherCase> semiglobal_cases();
 
-/// Variations of one setting, whose times are to be near each other: odd numbers of disparities, wider
+/// Returns variations of one setting that should take similar times: odd numbers of disparities, wider
 /// windows. The first is the setting itself.
 std::vector<MatcherCase> odd_cases();
 
-/// StereoBM with the parameters of a case. It always has its prefilter, always answers in 1/16 px, and takes
-/// disparities in multiples of 16.
+/// Returns StereoBM with the parameters of a case. It always applies its prefilter, always returns 1/16 px,
+/// and takes disparities in multiples of 16.
 cv::Ptr<cv::StereoBM> opencv_matcher(const MatcherOptions& options);
 
 }  // namespace stereod::bench

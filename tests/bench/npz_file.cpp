@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading the first array of an .npz file.
 #include "tests/bench/npz_file.h"
 
 #include <zlib.h>
@@ -22,14 +24,14 @@ std::size_t number_at(const Bytes& bytes, std::size_t place) {
   return place + 1 < bytes.size() ? bytes[place] + std::size_t{256} * bytes[place + 1] : 0;
 }
 
-/// The first file of a ZIP archive; empty if that is not deflated or is damaged. `most` limits its size.
-Bytes inflate_first(Bytes zip, std::size_t most) {
+/// Returns the first file of a ZIP archive, at most @p max_bytes; empty if it is damaged or not deflated.
+Bytes inflate_first(Bytes zip, std::size_t max_bytes) {
   const std::size_t start = 30 + number_at(zip, 26) + number_at(zip, 28);
   constexpr std::size_t kDeflated = 8;
   if (start >= zip.size() || std::memcmp(zip.data(), "PK\3\4", 4) != 0 || number_at(zip, 8) != kDeflated) {
     return {};
   }
-  Bytes plain(most);
+  Bytes plain(max_bytes);
   z_stream stream{};
   stream.next_in = zip.data() + start;
   stream.avail_in = static_cast<uInt>(zip.size() - start);
@@ -56,17 +58,17 @@ Image<float> read_npz_floats(const std::filesystem::path& path) {
       "'descr': '<f4', 'fortran_order': False, 'shape': \\(([0-9]{1,4}), ([0-9]{1,4})\\)");
   std::smatch shape;
   if (!std::regex_search(header, shape, wanted)) {
-    throw FileError(path.string() + ": its first array is not a image of 32-bit floats");
+    throw FileError(path.string() + ": its first array is not an image of 32-bit floats");
   }
-  Image<float> picture(std::stoi(shape[2]), std::stoi(shape[1]));
-  const std::size_t row_bytes = static_cast<std::size_t>(picture.width()) * sizeof(float);
-  if (npy.size() - data != row_bytes * static_cast<std::size_t>(picture.height())) {
+  Image<float> image(std::stoi(shape[2]), std::stoi(shape[1]));
+  const std::size_t row_bytes = static_cast<std::size_t>(image.width()) * sizeof(float);
+  if (npy.size() - data != row_bytes * static_cast<std::size_t>(image.height())) {
     throw FileError(path.string() + ": its first array has not the size that it claims");
   }
-  for (int y = 0; y < picture.height(); ++y) {
-    std::memcpy(picture.row(y), npy.data() + data + row_bytes * static_cast<std::size_t>(y), row_bytes);
+  for (int y = 0; y < image.height(); ++y) {
+    std::memcpy(image.row(y), npy.data() + data + row_bytes * static_cast<std::size_t>(y), row_bytes);
   }
-  return picture;
+  return image;
 }
 
 }  // namespace stereod::bench

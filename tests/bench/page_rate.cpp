@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How many images a second stereo-view's page shows in a headless Chromium, whole and at half resolution.
 //
 //   page_rate URL SECONDS

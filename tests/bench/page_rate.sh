@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # How many images a second stereo-view's page shows over a slow link: stereod, stereo-view and a headless Chromium in a
-# network namespace whose loopback, which carries nothing but the page, is limited to so many Mbit/s (0: not limited).
+# network namespace whose loopback, which carries nothing but the page, is limited to MBIT Mbit/s (0: not limited).
 #
-#   page_rate.sh FOLDER-OF-PROGRAMS MBIT...
+#   page_rate.sh DIRECTORY-OF-PROGRAMS MBIT...
 set -euo pipefail
-bin=$(realpath "${1:?page_rate.sh FOLDER-OF-PROGRAMS MBIT...}")
+bin=$(realpath "${1:?page_rate.sh DIRECTORY-OF-PROGRAMS MBIT...}")
 if [[ ${2:-} != --inside ]]; then exec unshare -n bash "$0" "$bin" --inside "${@:2}"; fi
 shift 2
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Drawing of captioned panels.
 #include "tests/bench/panels.h"
 
 #include <cmath>
@@ -13,11 +15,11 @@ constexpr int kGap = 6;
 constexpr int kCaption = 34;  // two lines
 
 // `image` is of any size, blue, green and red.
-cv::Mat captioned(const cv::Mat& picture, const Caption& caption) {
-  const int height = static_cast<int>(std::lround(1.0 * kPanelWidth * picture.rows / picture.cols));
+cv::Mat captioned(const cv::Mat& image, const Caption& caption) {
+  const int height = static_cast<int>(std::lround(1.0 * kPanelWidth * image.rows / image.cols));
   cv::Mat result(height + kCaption, kPanelWidth, CV_8UC3, cv::Scalar::all(255));
   cv::Mat scaled;
-  cv::resize(picture, scaled, {kPanelWidth, height}, 0, 0, cv::INTER_NEAREST);
+  cv::resize(image, scaled, {kPanelWidth, height}, 0, 0, cv::INTER_NEAREST);
   scaled.copyTo(result.rowRange(kCaption, result.rows));
   const cv::Scalar ink = cv::Scalar::all(40);
   cv::putText(result, caption.first_line, {2, 12}, cv::FONT_HERSHEY_SIMPLEX, 0.42, ink, 1, cv::LINE_AA);
@@ -50,9 +52,9 @@ cv::Mat row_of_panels(const std::vector<cv::Mat>& panels) {
 }
 
 void write_rows(const std::string& path, const std::vector<cv::Mat>& rows) {
-  cv::Mat picture;
-  cv::vconcat(rows, picture);
-  if (!cv::imwrite(path, picture, {cv::IMWRITE_PNG_COMPRESSION, 9})) {
+  cv::Mat image;
+  cv::vconcat(rows, image);
+  if (!cv::imwrite(path, image, {cv::IMWRITE_PNG_COMPRESSION, 9})) {
     throw std::runtime_error(path + ": cannot be written");
   }
 }

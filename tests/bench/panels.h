@@ -1,4 +1,5 @@
-// Images of disparities side by side, each with two lines of words above it.
+// SPDX-License-Identifier: BSD-3-Clause
+// Images of disparities side by side, each with a caption of two lines.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -14,7 +15,7 @@ struct Caption {
   std::string first_line, second_line;
 };
 
-/// Disparities in the colors of `range`.
+/// Draws disparities in the colors of @p range.
 cv::Mat panel(const DisparityImage& disparity, int units_per_pixel, DisparityRange range,
               const Caption& caption);
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rendering of poles before a wall.
 #include "tests/bench/pole_scene.h"
 
 #include <opencv2/imgproc.hpp>
@@ -33,11 +35,11 @@ Poles poles(int width) {
     result.on_pole(cv::Rect(x, 0, width, kRows)) = 1;
   }
   constexpr double kNoise = 2;
-  const auto camera = [&](const cv::Mat1f& picture) {
-    cv::Mat1f noise(picture.size());
+  const auto camera = [&](const cv::Mat1f& image) {
+    cv::Mat1f noise(image.size());
     cv::Mat seen;
     random.fill(noise, cv::RNG::NORMAL, 0, kNoise);
-    cv::add(picture, noise, seen, cv::noArray(), CV_8U);
+    cv::add(image, noise, seen, cv::noArray(), CV_8U);
     return seen;
   };
   result.set = {"poles", camera(left), camera(right), Image<float>(kColumns, kRows), 64};

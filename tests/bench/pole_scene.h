@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Thin things, rendered: poles before a wall.
 #pragma once
 
@@ -13,7 +14,7 @@ struct Poles {
   cv::Mat1b on_pole;  ///< 1 where the left image shows a pole
 };
 
-/// Poles of so many px.
+/// Renders poles @p width [px] wide.
 Poles poles(int width);
 
 }  // namespace stereod::bench

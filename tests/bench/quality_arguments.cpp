@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options of depth_quality.
 #include "tests/bench/quality_arguments.h"
 
 #include <CLI/CLI.hpp>
@@ -7,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/base/problem.h"
 #include "core/base/text.h"
 
 namespace stereod::bench {
@@ -33,7 +36,7 @@ int to_number(const std::string& setting, const std::string& value) {
   throw std::runtime_error("--set " + setting + ": the value must be a whole number");
 }
 
-/// `setting` is key=value.
+/// Applies a @p setting, key=value.
 void apply(MatcherOptions& options, const std::string& setting) {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos) throw std::runtime_error("--set " + setting + ": must be key=value");
@@ -65,7 +68,7 @@ MatcherOptions custom_preset(const std::string& base, const std::vector<std::str
     throw std::runtime_error("--base " + base + ": allowed are " + joined(kMatcherPresets));
   }
   for (const std::string& setting : settings) apply(*options, setting);
-  if (const std::optional<std::string> problem = problem_with(*options))
+  if (const std::optional<Problem> problem = problem_with(*options))
     throw std::runtime_error(to_string(*problem));
   return *options;
 }
@@ -83,7 +86,7 @@ QualityArguments parse_quality_arguments(int argc, const char* const* argv) {
   app.add_option("--base", base, "the preset that --set changes: " + joined(kMatcherPresets));
   app.add_option("--set", settings, "one more preset, called custom: KEY=VALUE; may be given again")
       ->allow_extra_args(false);
-  app.add_option("--images", arguments.pictures, "write a PNG for each set into this directory");
+  app.add_option("--images", arguments.image_directory, "write a PNG for each set into this directory");
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -1,4 +1,5 @@
-// What depth_quality is asked to do.
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line of depth_quality.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +12,14 @@
 namespace stereod::bench {
 
 struct QualityArguments {
-  std::vector<std::string> sets;                  ///< empty: all
-  std::vector<std::string> matchers;              ///< empty: all
-  std::optional<MatcherOptions> custom;           ///< the preset made of --base and --set
-  std::optional<std::filesystem::path> pictures;  ///< the directory to write images into
+  std::vector<std::string> sets;                         ///< empty: all
+  std::vector<std::string> matchers;                     ///< empty: all
+  std::optional<MatcherOptions> custom;                  ///< the preset made of --base and --set
+  std::optional<std::filesystem::path> image_directory;  ///< where to write images; none: writes none
 };
 
-/// Takes the command line apart. Prints its own help and ends the program if that is asked for. Throws
-/// std::runtime_error with one sentence.
+/// Parses the command line. --help prints the help and ends the program. Throws std::runtime_error with one
+/// sentence.
 QualityArguments parse_quality_arguments(int argc, const char* const* argv);
 
 }  // namespace stereod::bench

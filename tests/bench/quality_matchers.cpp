@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The contestants of depth_quality: stereod's presets and OpenCV's matchers.
 #include "tests/bench/quality_matchers.h"
 
 #include <algorithm>
@@ -12,7 +14,7 @@ namespace {
 
 constexpr int kWindow = 11;
 
-/// OpenCV's answer in our own image with our own word for unmatched.
+/// Copies OpenCV's disparities, with our value for unmatched pixels.
 DisparityImage compute(cv::StereoMatcher& matcher, const StereoSet& set) {
   cv::Mat found;
   matcher.compute(set.left, set.right, found);
@@ -110,8 +112,8 @@ QualityMatcher padded(QualityMatcher matcher) {
 
 QualityMatcher as_dense_as(QualityMatcher reference, QualityMatcher sparse, QualityMatcher dense) {
   const std::string name = sparse.name + " at its density";
-  const std::string settings = sparse.name + ", and of the other pixels of " + dense.name +
-                               " so many that as many are matched as by " + reference.name;
+  const std::string settings =
+      sparse.name + ", filled up with pixels of " + dense.name + " to the density of " + reference.name;
   const int units = sparse.units_per_pixel;
   const auto match = [=](const StereoSet& set, int disparities) {
     const auto matched = [&](const DisparityImage& image) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The contestants of depth_quality.
 #pragma once
 
@@ -16,27 +17,27 @@ struct QualityMatcher {
   std::function<DisparityImage(const StereoSet&, int disparities)> match;
 };
 
-/// StereoBM as it comes, 11×11.
+/// Returns StereoBM with its default settings, 11×11.
 QualityMatcher opencv_bm();
 
-/// StereoBM 11×11 with every test off that can be switched off.
+/// Returns StereoBM 11×11 with all tests off that can be switched off.
 QualityMatcher opencv_bm_without_tests();
 
-/// StereoSGBM in its 3WAY mode, 5×5.
+/// Returns StereoSGBM in its 3WAY mode, 5×5.
 QualityMatcher opencv_sgbm_3way();
 
-/// StereoSGBM 3WAY, 5×5, with a prefilter cap of 31.
+/// Returns StereoSGBM 3WAY, 5×5, with a prefilter cap of 31.
 QualityMatcher opencv_sgbm_3way(int uniqueness_ratio);
 
-/// The same matcher given images that are wider at the left by the disparities searched, so that OpenCV can
+/// Returns the same matcher on images widened at the left by the number of disparities, so that OpenCV can
 /// answer in every column.
 QualityMatcher padded(QualityMatcher matcher);
 
-/// `sparse`, with as many pixels more that only `dense` has, evenly spread over those, as `reference`
-/// matches. All have one number of units a pixel.
+/// Returns @p sparse, filled up to the density of @p reference with pixels that only @p dense has, evenly
+/// spread. All three have the same units per pixel.
 QualityMatcher as_dense_as(QualityMatcher reference, QualityMatcher sparse, QualityMatcher dense);
 
-/// Filled pixels count as matched: who sets `fill` asks for them.
+/// Returns one of our matchers. Filled pixels count as matched: hole_filling is part of the settings.
 QualityMatcher own_matcher(const std::string& name, const MatcherOptions& options);
 
 }  // namespace stereod::bench

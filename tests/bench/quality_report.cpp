@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tables and sentences of depth_quality.
 #include "tests/bench/quality_report.h"
 
 #include <iomanip>
@@ -13,7 +15,7 @@ void print_label(const std::string& label) {
   std::cout << "  " << std::left << std::setw(kLabel) << label << std::right << std::fixed;
 }
 
-void print_figures(const Evaluation& e) {
+void print_evaluation(const Evaluation& e) {
   std::cout << std::setprecision(2) << std::setw(kColumn) << e.bad1_known << std::setw(kColumn)
             << e.bad1_matched << std::setw(kColumn) << e.density << std::setprecision(3) << std::setw(kColumn)
             << e.mean_absolute_error;
@@ -21,13 +23,13 @@ void print_figures(const Evaluation& e) {
 
 void print_line(const std::string& label, const Evaluation& e, const Evaluation& bm) {
   print_label(label);
-  print_figures(e);
+  print_evaluation(e);
   std::cout << std::setprecision(2) << std::showpos << "  |" << std::setw(kColumn)
             << e.bad1_known - bm.bad1_known << std::setw(kColumn) << e.bad1_matched - bm.bad1_matched
             << std::setw(kColumn) << e.density - bm.density << std::noshowpos << "\n";
 }
 
-/// Every set counts the same, whatever its size.
+/// Returns the mean over the sets; every set has the same weight.
 Evaluation mean_of(const MatcherResult& result) {
   Evaluation mean;
   const double share = 1.0 / static_cast<double>(result.sets.size());
@@ -103,7 +105,7 @@ void print_squared_differences(const std::vector<MatcherResult>& results) {
   for (const MatcherResult& result : results) {
     const Evaluation& e = result.sets.front().evaluation;
     print_label(result.name);
-    print_figures(e);
+    print_evaluation(e);
     std::cout << std::setprecision(0) << std::setw(kColumn) << e.mean_squared_difference << "\n";
   }
 }

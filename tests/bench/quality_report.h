@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tables and sentences of depth_quality.
 #pragma once
 
@@ -16,24 +17,25 @@ struct SetResult {
   Evaluation evaluation;
 };
 
-/// What one matcher reached; all matchers have the same sets in the same order, at least one.
+/// The results of one matcher; all matchers have the same sets in the same order, at least one.
 struct MatcherResult {
   std::string name;
   std::string settings;
   std::vector<SetResult> sets;
 };
 
-/// A line for each set and the mean over the sets; behind the figures, by how much they differ from `bm`'s.
+/// Prints a line for each set and the mean over the sets, with the difference from @p bm.
 void print_table(const MatcherResult& result, const MatcherResult& bm);
 
-/// On how many sets the matcher has lower bad-1 over matched pixels and at least the density of `bm`; and
-/// where not.
+/// Prints on how many sets the matcher has lower bad-1 over matched pixels and at least the density of
+/// @p bm, and the other sets.
 void print_trust_against(const MatcherResult& result, const MatcherResult& bm);
 
-/// By how much the matcher's mean bad-1 over all known pixels is below that of `bm`, and on how many sets.
+/// Prints by how much the matcher's mean bad-1 over all known pixels is below that of @p bm, and on how many
+/// sets.
 void print_coverage_against(const MatcherResult& result, const MatcherResult& bm);
 
-/// One line for each result on its first set: bad-1, density and mean squared difference.
+/// Prints one line for each result on its first set: bad-1, density and mean squared difference.
 void print_squared_differences(const std::vector<MatcherResult>& results);
 
 }  // namespace stereod::bench

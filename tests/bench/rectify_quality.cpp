@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the interpolation of rectification costs in depth: pairs with ground truth are given two lenses and
 // two crooked cameras, rectified again either way, and matched.
 //
@@ -22,7 +23,7 @@ using tools::evaluate;
 using tools::Evaluation;
 namespace {
 
-/// A webcam whose rectified image is the given one, but for a margin that the lens does not reach.
+/// A webcam whose rectified image is the given one, except for a margin outside the view of the lens.
 CameraCalibration webcam(Size size, bool left) {
   CameraCalibration calibration;
   CameraModel& camera = calibration.camera;
@@ -41,7 +42,7 @@ CameraCalibration webcam(Size size, bool left) {
   return calibration;
 }
 
-/// What the camera sees where the rectified camera would see `rectified`.
+/// Returns the camera image that belongs to the rectified image @p rectified.
 cv::Mat seen_by(const CameraCalibration& camera, const cv::Mat& rectified) {
   cv::Mat map(rectified.size(), CV_32FC2);
   for (int y = 0; y < map.rows; ++y) {
@@ -57,7 +58,7 @@ cv::Mat seen_by(const CameraCalibration& camera, const cv::Mat& rectified) {
 }
 
 struct Rectified {
-  GrayImage picture;
+  GrayImage image;
   ValidityMask mask;
 };
 
@@ -65,7 +66,7 @@ Rectified rectified(const CameraCalibration& camera, const cv::Mat& seen, Interp
   const Size size{seen.cols, seen.rows};
   const RectifyMap map(camera, {size, static_cast<std::ptrdiff_t>(seen.step), 1}, interpolation);
   Rectified result{GrayImage(size), map.mask()};
-  map.gray_rows(seen.data, {0, size.height}, result.picture.view());
+  map.gray_rows(seen.data, {0, size.height}, result.image.view());
   return result;
 }
 
@@ -101,7 +102,7 @@ void measure() {
         const Rectified l = rectified(left, left_seen, interpolation);
         const Rectified r = rectified(right, right_seen, interpolation);
         matcher.use_masks(&l.mask, &r.mask);
-        matcher.match(l.picture.view(), r.picture.view(), found.view());
+        matcher.match(l.image.view(), r.image.view(), found.view());
         sums[interpolation == Interpolation::kNearest ? 0 : 1].add(
             evaluate(found.view(), options.units_per_pixel(), set.truth.view(), 1));
       }

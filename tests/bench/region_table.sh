@@ -3,9 +3,9 @@
 # What a part of the image saves: the table of docs/consumers.md. stereod renders its scene at 640×480, 30 images a
 # second, with one worker; stereo-tap listens. Wants an idle machine.
 #
-#   region_table.sh FOLDER-OF-PROGRAMS [SECONDS-FOR-EACH]
+#   region_table.sh DIRECTORY-OF-PROGRAMS [SECONDS-FOR-EACH]
 set -euo pipefail
-bin=$(realpath "${1:?region_table.sh FOLDER-OF-PROGRAMS [SECONDS-FOR-EACH]}")
+bin=$(realpath "${1:?region_table.sh DIRECTORY-OF-PROGRAMS [SECONDS-FOR-EACH]}")
 seconds=${2:-8}
 here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 if [[ ${3:-} != --inside ]]; then
@@ -28,7 +28,7 @@ multicast_bytes() {
     /proc/net/netstat
 }
 
-# row NAME PUBLISH: what the status says after so many seconds, and the bytes that left in them.
+# row NAME PUBLISH: what the status says after $seconds seconds, and the bytes sent in that time.
 row() {
   printf 'cameras: {source: synthetic, fps: 30}\nworkers: 1\npublish: {%s}\n' "$2" >"$scratch/stereod.yaml"
   "$bin/stereod" --config "$scratch/stereod.yaml" 2>"$scratch/stereod.err" &

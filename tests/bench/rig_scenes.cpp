@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rectifying, matching and drawing the scenes of a rig.
 #include "tests/bench/rig_scenes.h"
 
 #include <array>
@@ -18,7 +20,7 @@ namespace {
 constexpr int kDisparities = 64;
 
 struct View {
-  cv::Mat picture;
+  cv::Mat image;
   ValidityMask mask;
 };
 
@@ -32,25 +34,24 @@ View rectified(const CameraCalibration& camera, const std::filesystem::path& fil
   }
   const RectifyMap map(camera, {seen.size(), seen.view().stride(), 1}, Interpolation::kBilinear);
   View view{cv::Mat(seen.height(), seen.width(), CV_8UC1), map.mask()};
-  map.gray_rows(
-      seen.row(0), {0, seen.height()},
-      {view.picture.data, seen.width(), seen.height(), static_cast<std::ptrdiff_t>(view.picture.step)});
+  map.gray_rows(seen.row(0), {0, seen.height()},
+                {view.image.data, seen.width(), seen.height(), static_cast<std::ptrdiff_t>(view.image.step)});
   return view;
 }
 
-/// As the daemon matches: what the cameras do not see is known.
+/// Matches as the daemon does: with masks of the pixels outside the cameras' views.
 DisparityImage matched(const MatcherOptions& options, const View& left, const View& right) {
   WorkerPool pool(1);
-  DisparityImage found(view_of(left.picture).size());
+  DisparityImage found(view_of(left.image).size());
   FrameMatcher matcher(options, found.size(), pool);
   matcher.use_masks(&left.mask, &right.mask);
-  matcher.match(view_of(left.picture), view_of(right.picture), found.view());
+  matcher.match(view_of(left.image), view_of(right.image), found.view());
   return found;
 }
 
-/// For the image: filled disparities as if they were measured, all in whole pixels, which makes the file
-/// little more than half as large. What the camera does not see is taken out of everyone's answer; of the
-/// rest, the share that is answered.
+/// Prepares @p found for drawing and returns the share of matched pixels [%]: filled ones count as measured,
+/// and all are rounded to whole pixels, which nearly halves the file. Pixels outside the camera's view are
+/// removed from every result and from the share.
 double shown(DisparityImage& found, const ValidityMask& mask) {
   int seen = 0, answered = 0;
   for (int y = 0; y < found.height(); ++y) {
@@ -74,7 +75,7 @@ cv::Mat row_of(const Calibration& calibration, const std::filesystem::path& dire
                const std::string& scene) {
   const View left = rectified(calibration.left, directory / ("left_" + scene + ".png"));
   const View right = rectified(calibration.right, directory / ("right_" + scene + ".png"));
-  const StereoSet set{scene, left.picture, right.picture, {}, kDisparities};
+  const StereoSet set{scene, left.image, right.image, {}, kDisparities};
   std::vector<std::pair<std::string, DisparityImage>> answers;
   for (const QualityMatcher& matcher : {opencv_bm(), padded(opencv_sgbm_3way(10))}) {
     answers.emplace_back(matcher.name, matcher.match(set, kDisparities));

@@ -1,4 +1,5 @@
-// What a real rig sees, rectified by our own calibration and matched: there is no truth, only to look at.
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes of a real rig, rectified by our own calibration and matched; they have no ground truth.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +9,10 @@
 
 namespace stereod::bench {
 
-/// A row of panels for each of `scenes`, images `directory`/left_SCENE.png and right_SCENE.png of the cameras
-/// that `calibration` (a file) is of: OpenCV's BM and SGBM 3WAY, dense, robust and fine, each with the share
-/// of the pixels that it answers. The photographs are not drawn: they are not ours to pass on. Throws
-/// FileError.
+/// Draws a row of panels for each of @p scenes, the images left_SCENE.png and right_SCENE.png in
+/// @p directory, taken with the cameras of the file @p calibration: OpenCV's BM and SGBM 3WAY, dense, robust
+/// and fine, each with the share of matched pixels. Does not draw the photographs, which belong to others.
+/// Throws FileError.
 std::vector<cv::Mat> rig_scene_rows(const std::filesystem::path& calibration,
                                     const std::filesystem::path& directory,
                                     const std::vector<std::string>& scenes);

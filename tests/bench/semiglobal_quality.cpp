@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The semi-global matcher beside OpenCV's SGBM in its 3WAY mode: on images with ground truth, on the same
 // images disturbed, where something nearer hides what is there, on thin poles and in a street.
 //
@@ -57,46 +58,46 @@ std::vector<QualityMatcher> matchers() {
 
 // --- disturbances
 
-struct Pictures {
+struct ImagePair {
   cv::Mat left, right;
 };
-using Disturbance = std::pair<const char*, Pictures (*)(const Pictures&)>;
+using Disturbance = std::pair<const char*, ImagePair (*)(const ImagePair&)>;
 
-cv::Mat noisy(const cv::Mat& picture, std::uint64_t seed) {
+cv::Mat noisy(const cv::Mat& image, std::uint64_t seed) {
   constexpr double kSigma = 3;
-  cv::Mat noise(picture.size(), CV_32F), sum;
+  cv::Mat noise(image.size(), CV_32F), sum;
   cv::RNG(seed).fill(noise, cv::RNG::NORMAL, 0, kSigma);
-  cv::add(picture, noise, sum, cv::noArray(), CV_8U);
+  cv::add(image, noise, sum, cv::noArray(), CV_8U);
   return sum;
 }
 
-Pictures as_they_are(const Pictures& pair) { return pair; }
+ImagePair as_they_are(const ImagePair& pair) { return pair; }
 
-Pictures with_noise(const Pictures& pair) { return {noisy(pair.left, 1), noisy(pair.right, 2)}; }
+ImagePair with_noise(const ImagePair& pair) { return {noisy(pair.left, 1), noisy(pair.right, 2)}; }
 
-Pictures with_gain(const Pictures& pair) {
+ImagePair with_gain(const ImagePair& pair) {
   cv::Mat darker;
   pair.right.convertTo(darker, CV_8U, 0.8, 10);
   return {pair.left, darker};
 }
 
-Pictures lowered(const Pictures& pair, double rows) {
+ImagePair lowered(const ImagePair& pair, double rows) {
   cv::Mat moved;
   const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, 0, 0, 1, rows);
   cv::warpAffine(pair.right, moved, shift, pair.right.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   return {pair.left, moved};
 }
 
-Pictures with_half_a_row(const Pictures& pair) { return lowered(pair, 0.5); }
-Pictures with_a_row(const Pictures& pair) { return lowered(pair, 1); }
+ImagePair with_half_a_row(const ImagePair& pair) { return lowered(pair, 0.5); }
+ImagePair with_a_row(const ImagePair& pair) { return lowered(pair, 1); }
 
-cv::Mat compressed(const cv::Mat& picture) {
+cv::Mat compressed(const cv::Mat& image) {
   std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, 70});
+  cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, 70});
   return cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
 }
 
-Pictures with_jpeg(const Pictures& pair) { return {compressed(pair.left), compressed(pair.right)}; }
+ImagePair with_jpeg(const ImagePair& pair) { return {compressed(pair.left), compressed(pair.right)}; }
 
 constexpr std::array<Disturbance, 6> kDisturbances{{{"none", as_they_are},
                                                     {"noise of sigma 3", with_noise},
@@ -107,8 +108,8 @@ constexpr std::array<Disturbance, 6> kDisturbances{{{"none", as_they_are},
 
 // --- parts of images
 
-/// Where something nearer hides from the right camera what the left one sees: another pixel of the row is the
-/// right pixel's that this one would have.
+/// Marks occluded pixels, which a nearer object hides from the right camera: a pixel of the row with a larger
+/// disparity maps to the same right pixel.
 cv::Mat1b hidden(const StereoSet& set) {
   cv::Mat1b result(set.truth.height(), set.truth.width(), std::uint8_t{0});
   for (int y = 0; y < result.rows; ++y) {
@@ -131,7 +132,7 @@ cv::Mat1b hidden(const StereoSet& set) {
   return result;
 }
 
-/// Of the pixels where `part` is `wanted`, in percent.
+/// Results over the pixels of one part of the image [%].
 struct PartStats {
   double bad = 0;       ///< off by more than 1 px, or unmatched
   double too_near = 0;  ///< nearer by more than 1 px
@@ -169,7 +170,7 @@ void print_headings(const char* label, const std::vector<QualityMatcher>& all) {
   std::printf("\n");
 }
 
-struct Figures {
+struct Shares {
   double all = 0, matched = 0, density = 0;
   void add(const Evaluation& e, double share) {
     all += share * e.bad1_known, matched += share * e.bad1_matched, density += share * e.density;
@@ -179,21 +180,21 @@ struct Figures {
 
 void print_sets(const std::vector<QualityMatcher>& all, const std::vector<StereoSet>& sets) {
   print_headings("bad-1 all, matched; density", all);
-  std::vector<Figures> means(all.size());
+  std::vector<Shares> means(all.size());
   for (const StereoSet& set : sets) {
     std::printf("%-28s", set.name.c_str());
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Evaluation e = judge(all[i], set);
-      Figures figures;
-      figures.add(e, 1);
-      figures.print();
+      Shares shares;
+      shares.add(e, 1);
+      shares.print();
       means[i].add(e, 1.0 / static_cast<double>(sets.size()));
     }
     std::printf("\n");
     std::fflush(stdout);
   }
   std::printf("%-28s", "mean");
-  for (const Figures& mean : means) mean.print();
+  for (const Shares& mean : means) mean.print();
   std::printf("\n");
 }
 
@@ -201,17 +202,17 @@ void print_disturbances(const std::vector<QualityMatcher>& all, std::vector<Ster
   print_headings("disturbed, mean", all);
   for (const auto& [name, disturb] : kDisturbances) {
     std::printf("%-28s", name);
-    std::vector<Figures> means(all.size());
+    std::vector<Shares> means(all.size());
     for (StereoSet& set : sets) {
-      const Pictures clean{set.left, set.right};
-      const Pictures disturbed = disturb(clean);
+      const ImagePair clean{set.left, set.right};
+      const ImagePair disturbed = disturb(clean);
       set.left = disturbed.left, set.right = disturbed.right;
       for (std::size_t i = 0; i < all.size(); ++i) {
         means[i].add(judge(all[i], set), 1.0 / static_cast<double>(sets.size()));
       }
       set.left = clean.left, set.right = clean.right;
     }
-    for (const Figures& mean : means) mean.print();
+    for (const Shares& mean : means) mean.print();
     std::printf("\n");
     std::fflush(stdout);
   }

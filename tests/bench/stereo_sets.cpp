@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loading of the stereo sets with ground truth.
 #include "tests/bench/stereo_sets.h"
 
 #include <algorithm>
@@ -20,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first number called `key` in a JSON file. A scanner, because the files hold keys and nulls that
-/// OpenCV's reader refuses, and three numbers of them are all that is wanted.
+/// Returns the first number called @p key in a JSON file. A scanner, because OpenCV's reader refuses keys and
+/// nulls of these files, and only three numbers are needed.
 std::optional<double> number_in(const std::string& json, const std::string& key) {
   std::smatch match;
   const std::regex number("\"" + key + "\"\\s*:\\s*([0-9]+(\\.[0-9]+)?)");
@@ -30,7 +32,8 @@ std::optional<double> number_in(const std::string& json, const std::string& key)
 }
 
 cv::Mat read_gray_mat(const fs::path& path) {
-  // As stereo-match and the daemon read it; OpenCV's own reader makes slightly other greys of colors.
+  // As stereo-match and the daemon read it. OpenCV's own reader converts colors to slightly different gray
+  // levels.
   const GrayImage gray = read_gray(path);
   cv::Mat copy(gray.height(), gray.width(), CV_8UC1);
   for (int y = 0; y < gray.height(); ++y) std::copy_n(gray.row(y), gray.width(), copy.ptr(y));
@@ -46,7 +49,7 @@ StereoSet load_set(const std::string& name, const fs::path& left, const fs::path
   return set;
 }
 
-/// Nothing if the directory is no set with ground truth.
+/// Returns an empty optional if the directory is not a set with ground truth.
 std::optional<StereoSet> load_middlebury(const fs::path& directory) {
   std::ifstream file(directory / "meta.json");
   const std::string json{std::istreambuf_iterator<char>(file), {}};

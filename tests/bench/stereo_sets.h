@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Stereo pairs whose true disparities are known.
 #pragma once
 
@@ -21,9 +22,9 @@ struct StereoSets {
   std::vector<std::string> missing;  ///< what is not there and how to get it
 };
 
-/// The Middlebury sets of datasets(), by name, then Motorcycle (Debian's package python3-skimage, or the
-/// directory STEREO_SKIMAGE_DATA) and Aloe (opencv-doc). `names` restricts them; empty is all. Throws FileError
-/// for a set that is there but cannot be read, std::runtime_error for a name that there is no set of.
+/// Loads the Middlebury sets of datasets(), by name, then Motorcycle (Debian's package python3-skimage, or
+/// the directory STEREO_SKIMAGE_DATA) and Aloe (opencv-doc). @p names restricts them; empty means all. Throws
+/// FileError for a set that cannot be read, std::runtime_error for an unknown name.
 StereoSets load_stereo_sets(const std::vector<std::string>& names);
 
 }  // namespace stereod::bench

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rendering of a street.
 #include "tests/bench/street_scene.h"
 
 #include <algorithm>
@@ -10,7 +12,7 @@ namespace stereod::bench {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 480, kDisparities = 64;
-constexpr float kFocal = 500, kBaseline = 0.24F, kCentreX = 320, kCentreY = 200;
+constexpr float kFocal = 500, kBaseline = 0.24F, kCenterX = 320, kCenterY = 200;
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
 // A rectangle across one axis (0: x, 1: y, 2: z) at a place along it, meters: x to the right, y down, z
@@ -113,7 +115,7 @@ struct Seen {
 
 Seen look(const std::vector<Patch>& patches, float camera_x, float x, float y) {
   const float origin[3] = {camera_x, 0, 0};
-  const float ray[3] = {(x - kCentreX) / kFocal, (y - kCentreY) / kFocal, 1};
+  const float ray[3] = {(x - kCenterX) / kFocal, (y - kCenterY) / kFocal, 1};
   Seen seen;
   for (const Patch& patch : patches) {
     const float depth = (patch.place - origin[patch.axis]) / ray[patch.axis];  // the ray's z is 1
@@ -131,27 +133,27 @@ Seen look(const std::vector<Patch>& patches, float camera_x, float x, float y) {
 
 cv::Mat1f render(const std::vector<Patch>& patches, float camera_x) {
   constexpr int kRays = 3;  // each way in a pixel
-  cv::Mat1f picture(kHeight, kWidth, 0.0F);
+  cv::Mat1f image(kHeight, kWidth, 0.0F);
   const auto offset = [](int i) { return (static_cast<float>(i) + 0.5F) / kRays - 0.5F; };
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       for (int i = 0; i < kRays * kRays; ++i) {
-        picture(y, x) += look(patches, camera_x, static_cast<float>(x) + offset(i % kRays),
-                              static_cast<float>(y) + offset(i / kRays))
-                             .gray /
-                         (kRays * kRays);
+        image(y, x) += look(patches, camera_x, static_cast<float>(x) + offset(i % kRays),
+                            static_cast<float>(y) + offset(i / kRays))
+                           .gray /
+                       (kRays * kRays);
       }
     }
   }
-  return picture;
+  return image;
 }
 
-cv::Mat as_seen(const cv::Mat1f& picture, std::uint64_t seed) {
+cv::Mat as_seen(const cv::Mat1f& image, std::uint64_t seed) {
   constexpr double kNoise = 2;
-  cv::Mat1f noise(picture.size());
+  cv::Mat1f noise(image.size());
   cv::RNG(seed).fill(noise, cv::RNG::NORMAL, 0, kNoise);
   cv::Mat seen;
-  cv::add(picture, noise, seen, cv::noArray(), CV_8U);
+  cv::add(image, noise, seen, cv::noArray(), CV_8U);
   return seen;
 }
 

@@ -1,4 +1,5 @@
-// Draws what subpixel_sweep found.
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws the results of subpixel_sweep.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -19,8 +20,8 @@ struct SubpixelPanel {
   std::vector<SubpixelCurve> curves;  ///< at most three
 };
 
-/// Two diagrams for each panel, side by side: the mean error and the share of the answers, by the part of a
-/// pixel.
+/// Draws two diagrams for each panel, side by side: the mean error and the share of the answers, by the part
+/// of a pixel.
 cv::Mat draw_subpixel(const std::vector<SubpixelPanel>& panels);
 
 }  // namespace stereod::bench

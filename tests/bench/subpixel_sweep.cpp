@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Parts of a pixel against a plane whose disparity is known: our interpolation, a parabola through the same
 // costs, and OpenCV's StereoBM. In the image the thin line is what an unbiased one has. Prints the errors
 // and, with a file name, draws them.
-//   subpixel_sweep [PICTURE.png]
+//   subpixel_sweep [IMAGE.png]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -77,13 +78,13 @@ int cost_of(const GrayImage& left, const GrayImage& right, int x, int y, int dis
   return cost;
 }
 
-/// Our whole numbers and costs, but the vertex of the parabola through the three costs.
+/// Uses our whole disparities and costs with the vertex of the parabola through the three costs.
 DisparityImage match_parabola(const StereoPair& pair) {
   const GrayImage left = gradients_of(pair.left);
   const GrayImage right = gradients_of(pair.right);
   DisparityImage found(left.size());
   for (int y = 0; y < found.height(); ++y) std::fill_n(found.row(y), found.width(), kInvalidDisparity);
-  // The whole number nearest to ours may be its neighbor; within one of it lies the least cost.
+  // The whole number nearest to ours may be its neighbor: the minimum cost is at most one away.
   const DisparityImage ours = match_ours(pair);
   const int radius = kWindow / 2;
   for (int y = radius; y < found.height() - radius; ++y) {
@@ -118,7 +119,7 @@ void print(const SubpixelCurve& curve) {
   std::printf("\n");
 }
 
-void run(const std::string& picture) {
+void run(const std::string& image) {
   std::vector<SubpixelPanel> panels;
   for (const double noise : {0.0, 4.0}) {
     SubpixelSweep sweep;
@@ -134,8 +135,8 @@ void run(const std::string& picture) {
     }
     panels.push_back(panel);
   }
-  if (picture.empty()) return;
-  if (!cv::imwrite(picture, draw_subpixel(panels))) throw std::runtime_error(picture + ": cannot be written");
+  if (image.empty()) return;
+  if (!cv::imwrite(image, draw_subpixel(panels))) throw std::runtime_error(image + ": cannot be written");
 }
 
 }  // namespace
@@ -143,7 +144,7 @@ void run(const std::string& picture) {
 
 int main(int argc, char** argv) {
   try {
-    if (argc > 2) throw std::invalid_argument("usage: subpixel_sweep [PICTURE.png]");
+    if (argc > 2) throw std::invalid_argument("usage: subpixel_sweep [IMAGE.png]");
     stereod::bench::run(argc == 2 ? argv[1] : "");
     return EXIT_SUCCESS;
   } catch (const std::exception& error) {

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Formatting of measurements as tables.
 #include "tests/bench/tables.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Prints measurements in the layout of the thesis' tables.
 #pragma once
 
@@ -10,19 +11,20 @@ namespace stereod::bench {
 
 using Cells = std::vector<std::string>;
 
-/// A number with as many digits as mean something, in milliseconds, or as a factor.
+/// Formats a number with its significant digits, in milliseconds or as a factor.
 std::string ms(double value);
 std::string times(double value);
 
-/// One line: a label and a cell for each column.
+/// Prints one line: a label and a cell for each column.
 void print_row(const std::string& label, const Cells& cells);
 
-/// Three lines, a column for each contestant: best, median, and how many times as fast as `reference`.
+/// Prints three lines with a column for each contestant: best, median, and the speed relative to
+/// @p reference.
 void print_measured(const InterleavedResults& results, const Cells& contestants,
                     const std::string& reference);
 
-/// What the thesis measured on `machine`, and how many times as fast as its first column that is. NaN: no
-/// such column in the thesis.
+/// Prints the times of the thesis on @p machine and the speed relative to its first column. NaN: the thesis
+/// has no such column.
 void print_thesis(const std::string& machine, const std::vector<double>& milliseconds);
 
 }  // namespace stereod::bench

@@ -1,4 +1,5 @@
-// The lens whose images the benchmarks of rectification move.
+// SPDX-License-Identifier: BSD-3-Clause
+// The calibration that the benchmarks of rectification use.
 #pragma once
 
 #include "core/geometry/calibration.h"
@@ -6,7 +7,7 @@
 
 namespace stereod::bench {
 
-/// A webcam's lens and a rig that is a little askew, for 640×480.
+/// Returns the calibration of a webcam in a slightly rotated rig; the numbers are for 640×480.
 inline CameraCalibration webcam_calibration(Size size) {
   CameraCalibration calibration;
   CameraModel& camera = calibration.camera;

@@ -113,6 +113,7 @@ one() {
 }
 
 [[ $# -gt 0 ]] || set -- arm64 armhf i386
+tests/cross/filters.sh || die "the filters of the foreign presets name tests that do not exist."
 toolchain/install-deps.sh --packages
 mkdir -p "$logs"
 arch=package

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Drives the fuzz target without a fuzzer: whole inputs, and the same inputs changed here and there, always
 // the same ones. Any input may also be given as a file.
 #include <cstdint>
@@ -18,7 +19,7 @@ namespace {
 std::vector<Bytes> seeds() {
   std::vector<Bytes> seeds;
   for (std::uint8_t format = 0; format < 9; ++format) {
-    // Head: format, 48×24, no padding, a good stamp.
+    // Head: format, 48×24, no padding, a good timestamp.
     Bytes seed = {format, 2, 2, 0, 2 | 4 | 8, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     const bool jpeg = format >= 7;
     const Bytes body = jpeg ? camera_jpeg({48, 24}, -1) : Bytes(48 * 24 * 2, 90);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Inputs changed here and there, always the same ones: what drives a fuzz target without a fuzzer.
 #pragma once
 

@@ -68,7 +68,7 @@ new_board() {
 streams() {
   local tries
   for tries in {1..100}; do
-    [[ ! $(in_booted systemctl show --property StatusText --value stereod) =~ ^Streaming ]] || return 0
+    [[ ! $(in_booted systemctl show --property StatusText --value stereod) =~ ^streaming ]] || return 0
     sleep 0.2
   done
   in_booted systemctl --no-pager status stereod || true

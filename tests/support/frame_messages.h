@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Messages as the daemon sends them, for frames of 12 × 10 pixels, and someone who puts them together again.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether a sanitizer watches this build: it makes everything several times slower.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Writes a software bill of materials (SPDX 2.3, tag-value): every library the programs load, directly or through another
 # one, and every library of which only headers were compiled in, with the Debian package and version it came from.
 #   bill-of-materials.sh --name N --version V --headers 'PACKAGE…' --sysroot DIRECTORY --objdump PROGRAM --output FILE PROGRAM…

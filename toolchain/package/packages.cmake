@@ -58,7 +58,7 @@ install(FILES ${CMAKE_BINARY_DIR}/package/stereod.pc
 install(FILES ${package_dir}/libstereod-dev/stereodConfig.cmake ${CMAKE_BINARY_DIR}/package/stereodConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/stereod COMPONENT libstereod-dev)
 
-# --- what every package has: manual pages, licence, changes
+# --- what every package has: manual pages, license, changes
 find_program(GZIP gzip REQUIRED)
 # gzip -n keeps the time out, so that two builds give the same bytes.
 function(install_compressed source name destination component)

@@ -82,9 +82,9 @@ class SemiglobalMatcher final : public BandMatcher {
   const ValidityMask* right_mask_ = nullptr;
 };
 
-/// Returns a BandMatcher around semiglobal_reference(), for comparison with SemiglobalMatcher. It asks for
-/// all rows of the image whatever the band, makes all rows of the band final with the last one, and allocates
-/// memory in push().
+/// Returns a BandMatcher around semiglobal_reference(), for comparison with SemiglobalMatcher. For
+/// every band it asks for all rows of the image, makes all rows of the band final with the last one, and
+/// allocates memory in push().
 std::unique_ptr<BandMatcher> make_reference_semiglobal_matcher(const MatcherOptions& options, Size image);
 
 }  // namespace stereod

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A plugin for qemu-user: counts how often each block of instructions is executed, and prints the blocks that
 // the time goes to.
 //   qemu-aarch64 -plugin libcount_blocks.so -d plugin -D OUT PROGRAM...

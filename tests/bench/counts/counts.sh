@@ -5,7 +5,7 @@
 # Prints tables. What is counted is the difference of a run that matches three times and one that matches once.
 #   tests/bench/counts/counts.sh [--quick]      --quick: only the first case
 #
-# How the cycles come about, whatever the kernel looks like:
+# How the cycles are computed, for every kernel:
 #   (1) qemu-user with the plugin count_blocks tells how often each block of instructions is executed in a frame;
 #   (2) blocks that follow one another and are executed equally often are one;
 #   (3) the hottest, until they make up 97 % of the instructions, are disassembled from the program, and llvm-mca says
@@ -76,7 +76,7 @@ cachegrind() {
 }
 
 # Writes "block ADDRESS INSTRUCTIONS EXECUTIONS" of one frame to the file $1; then the emulator, the program and its
-# arguments but for the repetitions.
+# arguments without the repetitions.
 blocks_of_a_frame() {
   local out=$1 emulator=$2
   shift 2

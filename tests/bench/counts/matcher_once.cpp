@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Matches one made-up pair a given number of times and does nothing else, for programs that count
 // instructions and cache misses: the difference of two runs is the difference of their repetitions.
 //   matcher_once WIDTH HEIGHT DISPARITIES WINDOW MATCHER SUBPIXEL ISA CACHE REPETITIONS

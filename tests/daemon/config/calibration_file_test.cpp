@@ -188,7 +188,7 @@ TEST_F(CalibrationFile, NoCalibration_Refused) {
   }
 }
 
-// Whatever bytes the file has been cut or turned into, the answer is a calibration or a FileError.
+// A file cut short or with changed bytes gives a calibration or a FileError.
 TEST_F(CalibrationFile, DamagedFile_Refused) {
   const std::string good = calibration_text(sound());
   std::mt19937 random(3);

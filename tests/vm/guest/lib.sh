@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the scenarios share. Source it first.
+# Functions and variables of all scenarios. Source it first.
 set -euo pipefail
 
 # An emulated processor does vector instructions more slowly than plain ones; this is libjpeg-turbo's switch.
@@ -13,7 +13,7 @@ fail() {
   exit 1
 }
 
-# A finding that run.sh repeats in its summary.
+# Prints a finding, which run.sh repeats in its summary.
 shown() { echo "shown: $*"; }
 
 # Waits up to SECONDS until the command succeeds.
@@ -31,7 +31,7 @@ by_id() { echo "/dev/v4l/by-id/usb-uvcsim_UVC_Sim_Camera_$1-video-index0"; }
 # Port N of the virtual USB controller, from 0.
 by_path() { echo "/dev/v4l/by-path/platform-vhci_hcd.0-usb-0:$(($1 + 1)):1.0-video-index0"; }
 
-# Two webcams, the left one at port 0 and the right one at port 1. Arguments: for uvcvideo.
+# Plugs in two webcams, the left one at port 0 and the right one at port 1. Arguments: options of uvcvideo.
 start_cameras() {
   modprobe vhci-hcd
   modprobe uvcvideo "$@"
@@ -41,7 +41,7 @@ start_cameras() {
   wait_for 30 test -e "$(by_id $right_serial)" || fail "the right camera did not appear"
 }
 
-# tell left|right|both COMMAND…
+# tell left|right|both COMMAND…: sends a command to the webcams.
 tell() {
   local side sides=$1
   shift
@@ -79,10 +79,10 @@ stop_stereod() {
   [[ $status -eq 0 ]] || fail "stereod ended with $status"
 }
 
-# The latest status, as a table, in ./status.txt.
+# Writes the latest status, as a table, to ./status.txt.
 get_status() { stereo-tap status --once --timeout 8 >status.txt 2>status.err; }
 
-# What the latest status says of a camera: of_camera left|right ROW. A text that goes on in further lines is put together.
+# of_camera left|right ROW: prints the row of the latest status for a camera. Joins a text of several lines.
 of_camera() {
   awk -v side="$1" -v label="  $2 " '
     /^camera / { right = index($0, " right") }
@@ -91,7 +91,7 @@ of_camera() {
     on { print side == "left" ? substr($0, 17, right - 17) : substr($0, right) }' status.txt | tr -s ' \n' ' ' |
     sed 's/^ //; s/ $//'
 }
-# says SIDE ROW PATTERN [ROW PATTERN]…: whether that is what the status says of a camera now.
+# says SIDE ROW PATTERN [ROW PATTERN]…: fetches the status; succeeds if the rows of the camera match.
 says() {
   local side=$1
   shift
@@ -101,11 +101,11 @@ says() {
     shift 2
   done
 }
-# Waits until the status says so.
+# Waits until the rows match.
 need() { wait_for 20 says "$@" || { cat status.txt; tail -n 20 stereod.log; fail "the status should say: $*"; }; }
-# A count of a camera: the first number of the row.
+# Prints a count of a camera: the first number of the row.
 count_of() { of_camera "$1" "$2" | sed 's/[^0-9].*//'; }
-# One number behind a label of the table.
+# Prints the first number after a label of the table.
 number_of() { sed -n "s/.*$1  *\([0-9][0-9.]*\).*/\1/p" status.txt | head -n 1; }
 
 both_stream() { says left state ^streaming && [[ $(of_camera right state) == streaming ]]; }
@@ -120,21 +120,21 @@ need_streaming() {
 descriptors() { find "/proc/$stereod_pid/fd" -mindepth 1 | wc -l; }
 memory_kb() { awk '/^RssAnon:/ { print $2 }' "/proc/$stereod_pid/status"; }
 
-# After each fault both stream again, with the descriptors and the memory that stereod had. What happens for the first
-# time may allocate: remember them after that. Memory is what stereod's own pages hold (those of files come and go with
-# the page cache); the heap may be cut up a little otherwise each time a camera is set up, hence some pages more.
+# After each fault both cameras must stream again, with as many descriptors and as much memory as before. A first fault may
+# allocate: call remember_resources after it. Memory means anonymous pages (file pages come and go with the page cache). Heap
+# fragmentation differs between setups of a camera, so up to max_pages_more pages more are allowed.
 page_kb=$(($(getconf PAGESIZE) / 1024))
-most_pages_more=32
+max_pages_more=32
 remember_resources() {
   base_descriptors=$(descriptors)
   base_memory=$(memory_kb)
 }
-# While a camera is looked for, one more is open for a moment.
+# During the search for a camera one more descriptor is open for a short time.
 as_many_descriptors() { [[ $(descriptors) -eq $base_descriptors ]]; }
 need_recovery() {
   need_streaming 40 "after $1 both cameras should stream"
   wait_for 10 as_many_descriptors || { ls -l "/proc/$stereod_pid/fd"; fail "$1: $base_descriptors descriptors before"; }
   grown=$(($(memory_kb) - base_memory))
   echo "after $1: $(descriptors) descriptors, memory $(memory_kb) kB"
-  [[ $grown -le $((most_pages_more * page_kb)) ]] || fail "after $1 the memory has grown by $grown kB"
+  [[ $grown -le $((max_pages_more * page_kb)) ]] || fail "after $1 the memory has grown by $grown kB"
 }

@@ -4,7 +4,7 @@
 # alone: yes
 . /share/guest/lib.sh
 start_cameras
-# Stamps of an emulated machine are some milliseconds off. Half a frame apart, frames would change their partners all the time,
+# Timestamps of an emulated machine are some milliseconds off. Half a frame apart, frames would change their partners all the time,
 # so the cameras do not start there.
 tell left phase 0
 tell right phase 2000
@@ -30,9 +30,9 @@ look() {
   stereo-tap check --seconds 15 | tee check.txt || received=$?
   kill $watching
   [[ $received -eq 0 ]] || fail "stereo-tap check ended with $received"
-  # "  frames  195, 24.4 /s now  189, 25.5 /s now" and "  pairs made  154  …", once a second.
+  # "  frames  195, 24.4 /s  189, 25.5 /s" and "  pairs made  154  …", once a second.
   read -r left_rate right_rate share < <(awk '
-    $1 == "frames" && $4 == "/s" { left += $3; right += $7; if (!n++) before = $2 + $6; after = $2 + $6 }
+    $1 == "frames" && $4 == "/s" { left += $3; right += $6; if (!n++) before = $2 + $5; after = $2 + $5 }
     $1 == "pairs" && $2 == "made" { if (!m++) pairs_before = $3; pairs_after = $3 }
     END { printf "%.1f %.1f %.1f\n", left / n, right / n, 200 * (pairs_after - pairs_before) / (after - before) }' statuses.txt)
   echo "left $left_rate, right $right_rate frames a second; $share % of the frames paired"

@@ -23,16 +23,16 @@ need_streaming 60
 aligned() { get_status && grep -q '^synchronization  *aligned, skew -\{0,1\}[0-2]\.' status.txt; }
 if ! wait_for 90 aligned; then
   cat status.txt stereod.log
-  # The stamps are taken by the guest's clock when a frame begins to arrive: on a busy machine much too late.
+  # The timestamps are taken by the guest's clock when a frame begins to arrive: on a busy machine much too late.
   if [[ $jitter -gt 1500 ]]; then
     shown "NOT CHECKED: timestamps of an undisturbed camera deviate by $jitter µs, too coarse to synchronize two"
     exit 0
   fi
-  fail "the cameras were not brought into phase, though their stamps are only $jitter µs off"
+  fail "the cameras were not brought into phase, though their timestamps are only $jitter µs off"
 fi
 cat status.txt stereod.log
 restarts=$(sed -n 's/.* \([0-9]*\) restarts.*/\1/p' status.txt)
-shown "$(sed -n 's/^synchronization  *//p' status.txt) (stamps $jitter µs off)"
+shown "$(sed -n 's/^synchronization  *//p' status.txt) (timestamps $jitter µs off)"
 [[ $restarts -ge 1 ]] || fail "they were in phase from the start, so nothing was shown"
 
 tell right drift 1500  # a crystal so bad that it takes seconds, not minutes

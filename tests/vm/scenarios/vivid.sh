@@ -11,14 +11,14 @@ start() { start_stereod $left $right "$1" "sync: none
     exposure: auto
     controls: { brightness: 90, gain: 60 }"; }
 
-echo "=== stamps"
-# By itself vivid delivers a frame before the time that it is stamped with.
+echo "=== timestamps"
+# By default vivid delivers a frame before the time of its timestamp.
 start gray
-need left reason 'stamped far from now'
-need right reason 'stamped far from now'
+need left reason 'timestamped far from now'
+need right reason 'timestamped far from now'
 v4l2-ctl -d $left -c timestamp_source=1
 v4l2-ctl -d $right -c timestamp_source=1
-need_streaming 20 "with stamps that can be, both cameras should stream"
+need_streaming 20 "with possible timestamps both cameras should stream"
 
 echo "=== controls"
 v4l2-ctl -d $left -C brightness,gain_automatic,gain | tr '\n' ' ' >controls.txt
@@ -50,7 +50,7 @@ fault() {
   need left 'last fault' "$2"
   need_recovery "$1"
 }
-fault fatal_streaming_error 'fetching a frame'
+fault fatal_streaming_error 'dequeueing a frame'
 fault vidioc_qbuf_error 'queueing a buffer|giving a buffer back'
 # An error at the start, after another one that makes it start.
 for error in vidioc_reqbufs_error vidioc_streamon_error; do

@@ -1,4 +1,6 @@
-#include "tests/bench/quality_pictures.h"
+// SPDX-License-Identifier: BSD-3-Clause
+// Images of the disparities, side by side.
+#include "tests/bench/quality_images.h"
 
 #include <cmath>
 
@@ -34,15 +36,15 @@ DisparityImage disparity_of(const Image<float>& truth) {
   return disparity;
 }
 
-ColorImage side_by_side(const std::vector<ColorImage>& pictures) {
+ColorImage side_by_side(const std::vector<ColorImage>& images) {
   int width = -kGap;
-  for (const ColorImage& picture : pictures) width += picture.width() + kGap;
-  ColorImage whole(width, pictures.front().height());
+  for (const ColorImage& image : images) width += image.width() + kGap;
+  ColorImage whole(width, images.front().height());
   int x = 0;
-  for (const ColorImage& picture : pictures) {
-    const ImageView<Rgb> place(&whole.at(x, 0), picture.width(), picture.height(), whole.view().stride());
-    copy_pixels(picture.view(), place);
-    x += picture.width() + kGap;
+  for (const ColorImage& image : images) {
+    const ImageView<Rgb> place(&whole.at(x, 0), image.width(), image.height(), whole.view().stride());
+    copy_pixels(image.view(), place);
+    x += image.width() + kGap;
   }
   return whole;
 }
@@ -55,14 +57,14 @@ void write_comparison(const std::filesystem::path& path, const StereoSet& set,
   DisparityRenderingOptions options;
   options.range = typical_range(truth.view(), kSubpixelUnits);
   options.scale_bar = false;
-  std::vector<ColorImage> pictures;
-  pictures.push_back(color_of(view_of(set.left)));
-  pictures.push_back(draw_disparity(truth.view(), kSubpixelUnits, options));
+  std::vector<ColorImage> images;
+  images.push_back(color_of(view_of(set.left)));
+  images.push_back(draw_disparity(truth.view(), kSubpixelUnits, options));
   for (std::size_t i = 0; i < found.size(); ++i) {
     options.scale_bar = i + 1 == found.size();
-    pictures.push_back(draw_disparity(found[i].image.view(), found[i].units_per_pixel, options));
+    images.push_back(draw_disparity(found[i].image.view(), found[i].units_per_pixel, options));
   }
-  const ColorImage whole = side_by_side(pictures);
+  const ColorImage whole = side_by_side(images);
   write_png(path, whole.view());
 }
 

@@ -1,4 +1,5 @@
-// What the matchers found, for a person to look at.
+// SPDX-License-Identifier: BSD-3-Clause
+// Images of the disparities of several matchers.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +15,7 @@ struct FoundDisparity {
   int units_per_pixel = kSubpixelUnits;
 };
 
-/// Writes a PNG: the left image, the ground truth and each of `found`, side by side, all in the colors of
+/// Writes a PNG: the left image, the ground truth and each of @p found, side by side, all in the colors of
 /// the ground truth's range. Throws FileError.
 void write_comparison(const std::filesystem::path& path, const StereoSet& set,
                       const std::vector<FoundDisparity>& found);
