@@ -54,7 +54,8 @@ TEST_F(Program, OutputLink_TargetReplaced) {
   fs::create_symlink("nowhere/c.yaml", directory_ / "broken.yaml");
   fs::create_symlink("circle.yaml", directory_ / "circle.yaml");
   fs::create_symlink("/dev/null", directory_ / "null.yaml");
-  EXPECT_THAT(import(file("l.yaml"), file("broken.yaml")).err, HasSubstr("the directory to write to does not exist"));
+  EXPECT_THAT(import(file("l.yaml"), file("broken.yaml")).err,
+              HasSubstr("the directory to write to does not exist"));
   EXPECT_THAT(import(file("l.yaml"), file("circle.yaml")).err, HasSubstr("leads in a circle"));
   EXPECT_THAT(import(file("l.yaml"), file("null.yaml")).err, HasSubstr("is a device, pipe or socket"));
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
