@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the section `cameras` but for `v4l2`.
+// Reads the section `cameras` except `v4l2`.
 #include <array>
 #include <string>
 #include <utility>

@@ -24,6 +24,7 @@
 #include "stereod/depth_rows_t.hpp"
 #include "stereod/pointcloud_t.hpp"
 #include "tests/support/network.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/random_images.h"
 #include "tests/support/recorded_pairs.h"
 #include "tests/support/run_program.h"
@@ -186,7 +187,8 @@ TEST_F(ClientE2e, SlowConsumer_GetsNewestFrames) {
   std::vector<std::int64_t> numbers;
   client.on_frame([&](StereoFrame&& frame) {
     numbers.push_back(frame.frame);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    // Slower than the daemon in any build.
+    std::this_thread::sleep_for(std::chrono::milliseconds(kSanitized ? 1000 : 200));
   });
   ChildProgram stereod = start_stereod();
   ASSERT_TRUE(handle_until(client, [&] { return numbers.size() >= 8; }));
