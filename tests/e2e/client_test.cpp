@@ -24,10 +24,10 @@
 #include "stereod/depth_rows_t.hpp"
 #include "stereod/pointcloud_t.hpp"
 #include "tests/support/network.h"
-#include "tests/support/sanitized.h"
 #include "tests/support/random_images.h"
 #include "tests/support/recorded_pairs.h"
 #include "tests/support/run_program.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/temporary_directory.h"
 
 namespace stereod {
