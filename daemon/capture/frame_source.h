@@ -90,7 +90,7 @@ struct SourceReport {
   std::int64_t decode_errors = 0;   ///< frames dropped: JPEG could not be decoded
   std::int64_t incomplete = 0;      ///< frames dropped: empty, too short, or marked as damaged by the driver
   std::int64_t bad_timestamps = 0;  ///< frames dropped: timestamp far from now, or before the previous one
-  std::int64_t superseded = 0;      ///< frames dropped: a newer frame was already there
+  std::int64_t superseded = 0;      ///< frames dropped: a newer one was there, or no image was free
 };
 
 /// One camera: real, recorded or rendered.

@@ -25,7 +25,6 @@ class VideoDevice {
   /// Opens @p node, after closing the previous one. @p convert: through libv4l2.
   int open(const std::string& node, bool convert);
   void close() noexcept;
-  bool is_open() const noexcept { return descriptor_ >= 0; }
   /// Returns -1 if no node is open.
   int descriptor() const noexcept { return descriptor_; }
 

@@ -22,7 +22,6 @@ class JsonObject {
   JsonObject& add(std::string_view name, double number);
   JsonObject& add(std::string_view name, const std::vector<float>& numbers);
   JsonObject& add(std::string_view name, const JsonObject& object) { return add_raw(name, object.text()); }
-  JsonObject& add_null(std::string_view name) { return add_raw(name, "null"); }
 
   std::string text() const { return "{" + body_ + "}"; }
 
